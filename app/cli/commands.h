@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+
+namespace glimt {
+
+/// What the command that was given does, once all options are parsed; returns the exit status.
+using Run = std::function<int()>;
+
+/// Input that cannot be used: exit status 2.
+struct BadInput : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Each declares its command and sets `run` where the command is given.
+void add_window_command(CLI::App& app, Run& run);
+void add_render_command(CLI::App& app, Run& run);
+void add_compare_command(CLI::App& app, Run& run);
+void add_info_command(CLI::App& app, Run& run);
+
+/// Renders as `glimt render SCENE -o OUT` does.
+int render_scene(const std::filesystem::path& scene, const std::filesystem::path& out);
+
+}  // namespace glimt

@@ -1,0 +1,60 @@
+#include "cli/progress_bar.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace glimt {
+namespace {
+
+constexpr const char* clear_line = "\r\x1b[K";
+constexpr auto interval = std::chrono::milliseconds(100);
+constexpr std::size_t bar_width = 20;
+
+std::string time_text(double seconds) {
+  if (!(seconds < 1e6)) return "-";
+  const long whole = std::lround(seconds);
+  char text[32];
+  if (whole < 3600)
+    std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
+  else
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  return text;
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+std::string progress_text(const Progress& progress) {
+  const int percent = progress.fraction >= 1 ? 100 : std::min(99, static_cast<int>(100 * progress.fraction));
+  std::string bar(bar_width, '.');
+  std::fill_n(bar.begin(), static_cast<std::size_t>(percent) * bar_width / 100, '#');
+  char error[32] = "-";
+  if (std::isfinite(progress.relmse_estimate)) std::snprintf(error, sizeof error, "%.2e", progress.relmse_estimate);
+  char text[200];
+  std::snprintf(text, sizeof text, "%3d %% [%s] %d spp, %.1f Mpaths/s, error %s, ETA %s", percent, bar.c_str(),
+                progress.samples, progress.paths_per_second / 1e6, error, time_text(progress.seconds_left).c_str());
+  return text;
+}
+
+ProgressBar::~ProgressBar() {
+  if (drawn_) std::fputs(clear_line, stderr);
+}
+
+void ProgressBar::show(const Progress& progress) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_ && progress.fraction < 1) return;
+  next_ = now + interval;
+  drawn_ = true;
+  std::fprintf(stderr, "%s%s", clear_line, progress_text(progress).substr(0, terminal_width() - 1).c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace glimt

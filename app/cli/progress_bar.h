@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "cli/render_loop.h"
+
+namespace glimt {
+
+/// One line of progress: share done, samples, speed, error and time to go. "100 %" only where the goal is reached.
+std::string progress_text(const Progress& progress);
+
+/// Shows progress on stderr in one line, rewritten in place at most ten times a second. The line is cleared at the end.
+class ProgressBar {
+ public:
+  ~ProgressBar();
+  void show(const Progress& progress);
+
+ private:
+  std::chrono::steady_clock::time_point next_{};
+  bool drawn_ = false;
+};
+
+}  // namespace glimt

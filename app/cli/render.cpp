@@ -1,0 +1,114 @@
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/progress_bar.h"
+#include "cli/render_loop.h"
+#include "cli/render_options.h"
+#include "cli/stats_file.h"
+#include "film/file_bytes.h"
+#include "film/metadata.h"
+#include "film/statistics.h"
+#include "scene/fields.h"
+#include "scene/scene_file.h"
+
+namespace glimt {
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// The first Ctrl-C asks for an end after the running pass; a second one ends the program.
+void stop_on_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+int most_samples() {
+  for (const auto& field : settings_fields())
+    if (field.key == "spp") return static_cast<int>(field.max);
+  throw std::logic_error("no setting spp");
+}
+
+Goal goal_of(const RenderOptions& options, const Settings& settings) {
+  if (options.seconds) return {.spp = most_samples(), .seconds = *options.seconds};
+  if (options.target_error) return {.spp = most_samples(), .relmse_estimate = *options.target_error};
+  return {.spp = settings.spp};
+}
+
+void print_summary(const RenderOptions& options, const Film& film, double seconds, double estimate) {
+  const double paths = static_cast<double>(film.width()) * film.height() * film.samples();
+  std::printf("%s: %d spp in %.2f s, %.1f Mpaths/s, estimated relmse ", options.out.c_str(), film.samples(), seconds,
+              paths / seconds / 1e6);
+  std::printf(film.samples() < 2 ? "unknown from one sample\n" : "%.3g\n", estimate);
+}
+
+void warn_of_counters(const Film& film) {
+  if (film.invalid() + film.saturated() == 0) return;
+  std::fprintf(stderr,
+               "warning: %llu values were not finite or negative and were left out, %llu were too large and were cut\n",
+               static_cast<unsigned long long>(film.invalid()), static_cast<unsigned long long>(film.saturated()));
+}
+
+int run_render(const RenderOptions& options) {
+  Scene scene = read_scene(options.scene, options.overrides);
+  const CompiledScene compiled = compile(scene);
+  for (const auto& warning : compiled.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  const Goal goal = goal_of(options, scene.render);
+  Film film = make_film(compiled);
+
+  stop_on_interrupt();
+  const bool show = !options.quiet && isatty(STDERR_FILENO);
+  Rendering rendering;
+  {
+    ProgressBar bar;
+    rendering = render_to(
+        goal, compiled, film, options.execution, interrupted,
+        show ? [&bar](const Progress& progress) { bar.show(progress); } : std::function<void(const Progress&)>());
+  }
+
+  write_image(options.out, film, {}, render_metadata(scene, film.samples(), rendering.seconds));
+  if (!options.stats.empty())
+    replace_file(options.stats, stats_json(scene, film, options.execution, rendering.seconds));
+  const double estimate = relmse_estimate(film);
+  if (!options.quiet) print_summary(options, film, rendering.seconds, estimate);
+  warn_of_counters(film);
+  if (!rendering.reached) {
+    std::fprintf(stderr, "interrupted: %s holds the %d samples per pixel there are\n", options.out.c_str(),
+                 film.samples());
+    return 1;
+  }
+  if (estimate > goal.relmse_estimate && goal.relmse_estimate > 0) {
+    std::fprintf(stderr, "the error asked for is not reached with %d samples per pixel, the most there can be\n",
+                 goal.spp);
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int render_scene(const std::filesystem::path& scene, const std::filesystem::path& out) {
+  RenderOptions options;
+  options.scene = scene;
+  options.out = out;
+  try {
+    check_writable(out);
+  } catch (const ImageFileError& error) {
+    throw BadInput(error.what());
+  }
+  return run_render(options);
+}
+
+void add_render_command(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene to an image file");
+  const auto options = std::make_shared<RenderOptions>();
+  add_render_options(*command, *options);
+  command->callback([&run, options] { run = [options] { return run_render(*options); }; });
+}
+
+}  // namespace glimt

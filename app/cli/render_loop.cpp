@@ -1,0 +1,76 @@
+#include "cli/render_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "film/statistics.h"
+
+namespace glimt {
+namespace {
+
+constexpr double pass_seconds = 0.1;
+constexpr int first_check = 8;         // samples before the estimate can be trusted as a goal
+constexpr double estimate_share = 50;  // rendering time over the time that estimates for display take
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Samples at which to look at the error next: where it is expected to be reached, as it falls like 1 / samples.
+int next_check(int samples, double estimate, double wanted) {
+  const double expected = std::ceil(samples * estimate / wanted);
+  return static_cast<int>(std::clamp(expected, samples + std::max(1.0, samples / 32.0), 2.0 * samples));
+}
+
+/// Samples that take the wanted time, at least one.
+int samples_in(double seconds, double sample_seconds) {
+  return static_cast<int>(std::clamp(seconds / sample_seconds, 1.0, 1e9));
+}
+
+}  // namespace
+
+Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, const Execution& execution,
+                    const std::atomic<bool>& stop, const std::function<void(const Progress&)>& report) {
+  Rendering result;
+  const double pixels = static_cast<double>(film.width()) * film.height();
+  double estimate = std::numeric_limits<double>::infinity(), estimate_seconds = 0, estimated_at = 0;
+  int check = first_check, count = 1;
+  do {
+    const double pass = seconds_of([&] { render_pass(scene, film, count, execution); });
+    result.seconds += pass;
+    const double sample_seconds = pass / count;
+    const double seconds_left = goal.seconds - result.seconds;
+
+    const bool checked = goal.relmse_estimate > 0 && film.samples() >= check;
+    const bool shown = report && goal.relmse_estimate == 0 && film.samples() >= 2 &&
+                       result.seconds - estimated_at >= estimate_share * estimate_seconds;
+    if (checked || shown) {
+      estimate_seconds = seconds_of([&] { estimate = relmse_estimate(film); });
+      estimated_at = result.seconds;
+    }
+    if (checked) check = next_check(film.samples(), estimate, goal.relmse_estimate);
+    result.reached = film.samples() >= goal.spp || seconds_left < sample_seconds / 2 ||
+                     (checked && estimate <= goal.relmse_estimate);
+
+    if (report) {
+      const double samples = film.samples();
+      double samples_needed = goal.spp;
+      if (goal.relmse_estimate > 0) samples_needed = std::max(samples, samples * estimate / goal.relmse_estimate);
+      const double left = std::min(seconds_left, (samples_needed - samples) * sample_seconds);
+      const double total = result.seconds + left;
+      report({result.reached ? 1.0 : result.seconds / total, film.samples(), result.seconds, std::max(left, 0.0),
+              pixels * samples / result.seconds, estimate});
+    }
+
+    // The next pass: no more than four times as long as this one, on whose speed it relies.
+    count = std::min({samples_in(pass_seconds, sample_seconds), 4 * count, goal.spp - film.samples(),
+                      samples_in(seconds_left, sample_seconds)});
+    if (goal.relmse_estimate > 0) count = std::min(count, check - film.samples());
+  } while (!result.reached && !stop);
+  return result;
+}
+
+}  // namespace glimt

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+
+#include "render/render.h"
+
+namespace glimt {
+
+/// Rendering stops at whichever comes first.
+struct Goal {
+  int spp = 0;                                               ///< samples per pixel
+  double seconds = std::numeric_limits<double>::infinity();  ///< of rendering
+  double relmse_estimate = 0;                                ///< at most this; looked at from 8 samples on
+};
+
+struct Progress {
+  double fraction = 0;  ///< of the way to the goal, as far as known
+  int samples = 0;      ///< per pixel
+  double seconds = 0;   ///< of rendering so far
+  double seconds_left = 0;
+  double paths_per_second = 0;
+  double relmse_estimate = 0;  ///< when last looked at; infinite before
+};
+
+struct Rendering {
+  double seconds = 0;    ///< wall-clock, in render_pass alone
+  bool reached = false;  ///< the goal; false where it was stopped
+};
+
+/// Adds samples to the film in passes of about 0.1 s until the goal is reached, or after the pass in which `stop`
+/// became true. With an error as goal the number of samples does not depend on time. `report` (may be empty) is called
+/// after each pass.
+Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, const Execution& execution,
+                    const std::atomic<bool>& stop, const std::function<void(const Progress&)>& report);
+
+}  // namespace glimt

@@ -1,0 +1,134 @@
+#include "cli/render_options.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "film/file_bytes.h"
+#include "film/image_file.h"
+#include "scene/fields.h"
+#include "scene/text.h"
+
+namespace glimt {
+namespace {
+
+std::string option_name(std::string_view key) {
+  std::string name = "--" + std::string(key);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+/// An option that overrides the scene's value at `path`, as --set does.
+struct AddSetting {
+  CLI::App& command;
+  std::vector<std::string>& overrides;
+  const Field<Settings>& field;
+
+  CLI::Option* operator()(const Choice<Settings>& choice) const {
+    const std::vector<std::string> names(choice.names.begin(), choice.names.end());
+    return add<std::string>([](const std::string& value) { return toml_string(value); })
+        ->check(CLI::IsMember(names))
+        ->type_name("NAME");
+  }
+  CLI::Option* operator()(int Settings::*) const {
+    return add<int>([](int value) { return std::to_string(value); })
+        ->check(CLI::Range(static_cast<int>(field.min), static_cast<int>(field.max)));
+  }
+  CLI::Option* operator()(double Settings::*) const {
+    return add<double>([](double value) { return number_text(value); })->check(CLI::Range(field.min, field.max));
+  }
+  CLI::Option* operator()(glm::dvec3 Settings::*) const {
+    return add<std::string>([](const std::string& value) { return value; })->type_name("[X,Y,Z]");
+  }
+
+  template <class T, class ToText>
+  CLI::Option* add(ToText to_text) const {
+    const auto set = [path = "render." + std::string(field.key) + "=", &list = overrides, to_text](const T& value) {
+      list.push_back(path + to_text(value));
+    };
+    return command.add_option_function<T>(option_name(field.key), set, std::string(field.doc))->group("Settings");
+  }
+};
+
+/// A validator of CLI11: the message of what `check` throws.
+template <class Check>
+auto message_of(Check check) {
+  return [check](const std::string& text) -> std::string {
+    try {
+      check(text);
+      return {};
+    } catch (const ImageFileError& error) {
+      return error.what();
+    }
+  };
+}
+
+std::string check_positive(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool number = error == std::errc{} && end == text.data() + text.size();
+  return number && std::isfinite(value) && value > 0 ? "" : text + " is not a number above 0";
+}
+
+/// "640x480" as overrides of the image's size.
+void set_size(const std::string& text, std::vector<std::string>& overrides) {
+  const auto fields = image_fields();
+  const char* next = text.data();
+  const char* const last = text.data() + text.size();
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(next, last, value);
+    const bool followed = i + 1 == fields.size() ? end == last : end != last && *end == 'x';
+    if (error != std::errc{} || !followed || value < fields[i].min || value > fields[i].max)
+      throw CLI::ValidationError("--size", text + " is not WIDTHxHEIGHT with both sides " +
+                                               range_text(fields[i].min, fields[i].max, fields[i].min_excluded));
+    overrides.push_back("image." + std::string(fields[i].key) + "=" + std::to_string(value));
+    next = end + 1;
+  }
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+  command.add_option("SCENE", options.scene, "Scene file")->required()->type_name("FILE");
+  command
+      .add_option("-o,--output", options.out,
+                  "Image to write: .png (displayed picture), .exr or .pfm (linear radiance)")
+      ->required()
+      ->type_name("FILE")
+      ->check(message_of([](const std::string& file) { check_writable(file); }));
+  command.add_option("--set", options.overrides, "Override any value of the scene: material.clay.roughness=0.6")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all();
+  for (const auto& field : settings_fields()) std::visit(AddSetting{command, options.overrides, field}, field.member);
+  command
+      .add_option_function<std::string>(
+          "--size", [&options](const std::string& text) { set_size(text, options.overrides); },
+          "Size of the image, pixels")
+      ->type_name("WxH");
+
+  CLI::Option* spp = command.get_option("--spp");
+  CLI::Option* seconds = command.add_option("--seconds", options.seconds, "Render for this time instead of to --spp");
+  CLI::Option* error = command.add_option("--target-error", options.target_error,
+                                          "Render until the estimated relative mean squared error is this small");
+  seconds->check(check_positive)->type_name("S")->excludes(spp);
+  error->check(check_positive)->type_name("RELMSE")->excludes(spp)->excludes(seconds);
+
+  command.add_option("--threads", options.execution.threads, "Threads; all the machine has if not given")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option_function<std::string>(
+          "--lanes",
+          [&options](const std::string& lanes) {
+            options.execution.lanes = lanes == "1" ? Lanes::scalar : Lanes::native;
+          },
+          "Paths traced side by side in one thread")
+      ->check(CLI::IsMember({"1", "native"}))
+      ->type_name("N");
+  command.add_option("--stats", options.stats, "Write what the render was and cost as JSON")
+      ->type_name("FILE.json")
+      ->check(message_of([](const std::string& file) { check_replaceable(file); }));
+  command.add_flag("--quiet", options.quiet, "No progress and no summary");
+}
+
+}  // namespace glimt

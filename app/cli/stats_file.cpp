@@ -1,0 +1,53 @@
+#include "cli/stats_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "film/statistics.h"
+#include "scene/fields.h"
+
+namespace glimt {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ValueJson {
+  const Settings& settings;
+
+  Json operator()(const Choice<Settings>& choice) const {
+    return choice.names[static_cast<std::size_t>(choice.get(settings))];
+  }
+  Json operator()(glm::dvec3 Settings::*member) const {
+    const glm::dvec3& v = settings.*member;
+    return {v.x, v.y, v.z};
+  }
+  template <class T>
+  Json operator()(T Settings::*member) const {
+    return settings.*member;
+  }
+};
+
+}  // namespace
+
+std::string stats_json(const Scene& scene, const Film& film, const Execution& execution, double seconds) {
+  const std::int64_t paths = std::int64_t{film.width()} * film.height() * film.samples();
+  Json json;
+  json["scene"] = scene.name;
+  json["width"] = film.width();
+  json["height"] = film.height();
+  for (const auto& field : settings_fields())
+    json[std::string(field.key)] = std::visit(ValueJson{scene.render}, field.member);
+  json["spp"] = film.samples();
+  json["paths"] = paths;
+  json["seconds"] = seconds;
+  json["paths_per_second"] = static_cast<double>(paths) / seconds;
+  json["mean"] = mean(film.mean());
+  json["relmse_estimate"] = relmse_estimate(film);
+  json["threads"] = execution.threads > 0 ? execution.threads : hardware_threads();
+  json["lanes"] = execution.lanes == Lanes::scalar ? 1 : native_lane_count();
+  json["invalid"] = film.invalid();
+  json["saturated"] = film.saturated();
+  json["version"] = GLIMT_VERSION;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace glimt

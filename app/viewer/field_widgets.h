@@ -1,0 +1,53 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+#include "scene/fields.h"
+
+/// The control that suits a field of the field table: sliders for numbers, a menu for choices, swatches for colours.
+namespace glimt {
+
+/// What a control needs to know of its field.
+struct FieldText {
+  std::string name;  ///< of the control, unique in the window: "render.spp"
+  std::string_view key, doc;
+  double min = 0, max = 0;
+  bool min_excluded = false;
+};
+
+/// Each draws a row and returns true where its value was changed, always to one that the field allows.
+bool edit_int(const FieldText& field, int& value);
+bool edit_real(const FieldText& field, double& value);
+bool edit_vector(const FieldText& field, glm::dvec3& value);
+bool edit_choice(const FieldText& field, std::span<const std::string_view> names, int& value);
+
+/// The row of one field of `object`, which stands at `path` in the scene ("render", "sphere.glass.material").
+template <class T>
+bool edit_field(const Field<T>& field, T& object, const std::string& path) {
+  const FieldText text{
+      path + "." + std::string(field.key), field.key, field.doc, field.min, field.max, field.min_excluded};
+  return std::visit(
+      [&](const auto& member) {
+        using Member = std::remove_cvref_t<decltype(member)>;
+        if constexpr (std::is_same_v<Member, Choice<T>>) {
+          int value = member.get(object);
+          const bool changed = edit_choice(text, member.names, value);
+          if (changed) member.set(object, value);
+          return changed;
+        } else if constexpr (std::is_same_v<Member, int T::*>) {
+          return edit_int(text, object.*member);
+        } else if constexpr (std::is_same_v<Member, double T::*>) {
+          return edit_real(text, object.*member);
+        } else {
+          return edit_vector(text, object.*member);
+        }
+      },
+      field.member);
+}
+
+}  // namespace glimt

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// How the names of the field table (scene/fields.h) are said in the window.
+namespace glimt {
+
+/// A key or value in words: "shadow_rays" becomes "Shadow rays", "oren-nayar" "Oren-Nayar".
+std::string label_of(std::string_view key);
+
+/// A line of documentation with a capital letter at its start.
+std::string sentence(std::string_view doc);
+
+/// The unit of a field's value, or nothing.
+std::string_view unit_of(std::string_view key);
+
+}  // namespace glimt

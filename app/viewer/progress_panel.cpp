@@ -1,0 +1,69 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "viewer/panels.h"
+#include "viewer/style.h"
+#include "viewer/widgets.h"
+
+namespace glimt {
+namespace {
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 60) return number("%.1f s", seconds);
+  const int whole = static_cast<int>(seconds);
+  char text[64];
+  if (whole < 3600) {
+    std::snprintf(text, sizeof text, "%d min %02d s", whole / 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%d h %02d min", whole / 3600, whole / 60 % 60);
+  }
+  return text;
+}
+
+const char* condition(const ViewerState& state) {
+  if (state.frame && state.frame->finished) return "done";
+  return state.paused ? "paused" : "rendering";
+}
+
+}  // namespace
+
+void draw_progress_panel(const ViewerState& state) {
+  ImGui::PushFont(style::heading_font());
+  const std::string right = condition(state);
+  const float right_width = ImGui::CalcTextSize(right.c_str()).x;
+  const float width = ImGui::GetContentRegionAvail().x;
+  const std::string name = state.scene.name.empty() ? "Scene" : state.scene.name;
+  ImGui::TextUnformatted(fit_text(name, width - right_width - style::scaled(12)).c_str());
+  ImGui::SameLine(ImGui::GetCursorPosX() + width - right_width);
+  ImGui::TextDisabled("%s", right.c_str());
+  ImGui::PopFont();
+
+  const Frame none;
+  const Frame& frame = state.frame ? *state.frame : none;
+  const int target = state.scene.render.spp;
+  const float share = std::clamp(static_cast<float>(frame.samples) / static_cast<float>(target), 0.0F, 1.0F);
+  ImGui::ProgressBar(share, {-FLT_MIN, style::scaled(6)}, "");
+  text_row("Samples / pixel", std::to_string(frame.samples) + " of " + std::to_string(target),
+           "Paths traced so far through each pixel, and where rendering stops. Four times as many halve the noise.");
+  text_row("Estimated error",
+           std::isfinite(frame.relmse_estimate) && frame.samples > 1 ? number("%.3g relMSE", frame.relmse_estimate)
+                                                                     : "\u2013",
+           "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
+           "as 1 / "
+           "samples.");
+  text_row("Speed", number("%.1f Mpaths/s", frame.paths_per_second / 1e6),
+           "Millions of paths from the camera in a second.");
+  text_row("Time", duration(frame.seconds), "Spent rendering since the last change; pauses do not count.");
+}
+
+}  // namespace glimt

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/state.h"
+
+namespace glimt {
+
+/// A picture of what the window shows, and what made it.
+struct Snapshot {
+  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const Scene> scene;  ///< the one that the frame shows
+  Display display;
+};
+
+/// Creates the first of STEM-001.png, STEM-002.png, ... in the folder that does not exist yet, empty, so that nobody
+/// else takes it. Throws ImageFileError.
+std::filesystem::path reserve_snapshot_file(const std::filesystem::path& folder, const std::string& stem);
+
+/// Writes snapshots in the background. The destructor waits until all are written.
+class SnapshotWriter {
+ public:
+  /// `wake` is called on another thread when a message is there.
+  explicit SnapshotWriter(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+  /// Writes STEM-NNN.png into the current folder, never over another file.
+  void write(Snapshot snapshot, std::string stem);
+  /// What has become of the last one, once.
+  std::optional<Message> take_message();
+
+ private:
+  std::function<void()> wake_;
+  std::mutex mutex_;
+  std::optional<Message> message_;
+  std::vector<std::future<void>> jobs_;
+};
+
+}  // namespace glimt

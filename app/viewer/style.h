@@ -1,0 +1,23 @@
+#pragma once
+
+#include <imgui.h>
+
+/// Colours, sizes and fonts of the window.
+namespace glimt::style {
+
+constexpr ImU32 backdrop = IM_COL32(15, 16, 18, 255);  ///< around the picture
+constexpr ImU32 muted = IM_COL32(150, 155, 165, 255);  ///< labels and hints
+constexpr ImU32 fill = IM_COL32(110, 84, 44, 255);     ///< of sliders, up to their value
+constexpr ImU32 error = IM_COL32(255, 128, 112, 255);
+
+/// Sets colours, sizes and fonts. `scale` is window coordinates per unit of design (1 on an ordinary screen), `ratio`
+/// framebuffer pixels per window coordinate. The fonts are Roboto or DejaVu Sans where installed, else ImGui's own.
+void apply(float scale, float ratio);
+
+/// For headings; the current font elsewhere.
+ImFont* heading_font();
+
+/// `design` units in window coordinates.
+float scaled(float design);
+
+}  // namespace glimt::style

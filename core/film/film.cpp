@@ -1,0 +1,120 @@
+#include "film/film.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace glimt {
+namespace {
+
+constexpr std::uint64_t largest_sum = std::numeric_limits<std::int64_t>::max();
+
+constexpr double magic = 0x1p52;  // adding it rounds to a whole number, which is then in the lowest bits
+
+/// To the nearest whole number, for 0 <= value * scale < 2^52. The product is exact, because scale is a power of two.
+std::uint64_t units(float value, double scale) {
+  return std::bit_cast<std::uint64_t>(value * scale + magic) - std::bit_cast<std::uint64_t>(magic);
+}
+
+/// Threads may count at the same time.
+void count(std::uint64_t& counter) { std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed); }
+
+/// Fills an image, f(pixel) -> array of three numbers, on several threads where the image is large.
+template <class F>
+Image make_image(int width, int height, F f) {
+  const int pixels = width * height;
+  Image image{width, height, std::vector<float>(static_cast<std::size_t>(pixels) * 3)};
+#pragma omp parallel for if (pixels > (1 << 16))
+  for (int i = 0; i < pixels; ++i) {
+    const auto value = f(i);
+    for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * static_cast<std::size_t>(i) + c] = static_cast<float>(value[c]);
+  }
+  return image;
+}
+
+double reciprocal(int n) { return n > 0 ? 1.0 / n : 0.0; }
+
+}  // namespace
+
+Film::Film(int width, int height, double max_radiance) : width_(width), height_(height) {
+  // Within the range of float, with room for the fixed point on either side.
+  const double brightest =
+      max_radiance > 0 && std::isfinite(max_radiance) ? std::clamp(max_radiance, 1e-30, 1e30) : 1.0;
+  scale_ = std::exp2(38 - std::ceil(std::log2(brightest)));
+  for (auto& sums : sums_) sums.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  limit_bits_ = std::bit_cast<std::uint32_t>(static_cast<float>(magic / scale_));
+}
+
+void Film::add(int first_pixel, int half, std::span<const float> rgb) {
+  std::uint64_t* sums = sums_[static_cast<std::size_t>(half)].data() + 3 * static_cast<std::size_t>(first_pixel);
+  // As unsigned numbers, the bits of negative and non-finite floats are larger than those of the limit.
+  std::uint32_t largest_bits = 0;
+  for (const float value : rgb) largest_bits = std::max(largest_bits, std::bit_cast<std::uint32_t>(value));
+  if (largest_bits >= limit_bits_) {
+    for (std::size_t i = 0; i < rgb.size(); ++i) add_unusual(sums[i], rgb[i]);
+    return;
+  }
+  std::uint64_t all_sums = 0;
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    sums[i] += units(rgb[i], scale_);
+    all_sums |= sums[i];
+  }
+  if (all_sums > largest_sum)
+    for (std::size_t i = 0; i < rgb.size(); ++i)
+      if (sums[i] > largest_sum) {
+        sums[i] = largest_sum;
+        count(saturated_);
+      }
+}
+
+void Film::add_unusual(std::uint64_t& sum, float value) {
+  if (!(value >= 0 && std::isfinite(value))) {
+    count(invalid_);
+    return;
+  }
+  const double scaled = value * scale_;  // a whole number from 2^24 units on
+  const std::uint64_t added = scaled < magic    ? units(value, scale_)
+                              : scaled < 0x1p63 ? static_cast<std::uint64_t>(scaled)
+                                                : largest_sum + 1;
+  if (added > largest_sum - sum) {
+    count(saturated_);
+    sum = largest_sum;
+  } else {
+    sum += added;
+  }
+}
+
+Image Film::mean() const {
+  const double factor = reciprocal(samples_);
+  return make_image(width_, height_, [&](int i) {
+    const auto a = half_sum(i, 0), b = half_sum(i, 1);
+    return std::array{(a[0] + b[0]) * factor, (a[1] + b[1]) * factor, (a[2] + b[2]) * factor};
+  });
+}
+
+Image Film::half_mean(int h) const {
+  const double factor = reciprocal(half_samples(h));
+  return make_image(width_, height_, [&](int i) {
+    const auto a = half_sum(i, h);
+    return std::array{a[0] * factor, a[1] * factor, a[2] * factor};
+  });
+}
+
+Image Film::standard_error() const {
+  if (samples_ < 2) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    return make_image(width_, height_, [&](int) { return std::array{unknown, unknown, unknown}; });
+  }
+  const double n0 = half_samples(0), n1 = half_samples(1);
+  const double factor = std::sqrt(n0 * n1) / (n0 + n1);
+  return make_image(width_, height_, [&](int i) {
+    const auto a = half_sum(i, 0), b = half_sum(i, 1);
+    std::array<double, 3> error{};
+    for (std::size_t c = 0; c < 3; ++c) error[c] = factor * std::abs(a[c] / n0 - b[c] / n1);
+    return error;
+  });
+}
+
+}  // namespace glimt

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace glimt {
+
+/// Linear RGB, row by row from the top, three floats a pixel. W/(m^2 sr) where it holds radiance.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<float> rgb;  ///< width * height * 3
+
+  float* pixel(int x, int y) { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
+  const float* pixel(int x, int y) const { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
+};
+
+/// Sums of radiance per pixel in two independent halves: sample 2k + h of a pixel is sample k of half h. Sums are
+/// 64-bit fixed point, so they depend neither on the order of the samples nor on their number, and never drift.
+class Film {
+ public:
+  Film() = default;
+
+  /// `max_radiance` is the brightest emission in the scene; a unit of the fixed point is 2^-38 of it (rounded to a
+  /// power of two), which leaves room for 2^25 samples of that brightness a pixel and half.
+  Film(int width, int height, double max_radiance);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Samples that every pixel has.
+  int samples() const { return samples_; }
+  /// Says that every pixel has got samples [samples(), samples() + count).
+  void finish_pass(int count) { samples_ += count; }
+
+  /// Adds a sample's radiance to each of a run of pixels, `rgb` three floats a pixel. Negative and non-finite values
+  /// are counted in invalid() and add nothing; values and sums that do not fit stop at the largest and are counted in
+  /// saturated(). Threads may add to different pixels at the same time.
+  void add(int first_pixel, int half, std::span<const float> rgb);
+  /// The same for one pixel.
+  void add(int pixel, int half, float r, float g, float b) { add(pixel, half, std::array{r, g, b}); }
+
+  /// Counters that are 0 in a sound render.
+  std::uint64_t invalid() const { return invalid_; }
+  std::uint64_t saturated() const { return saturated_; }
+
+  /// Samples that every pixel has in half h (0 or 1).
+  int half_samples(int h) const { return (samples_ + 1 - h) / 2; }
+  /// Sum of the radiance samples of one pixel in half h, W/(m^2 sr).
+  std::array<double, 3> half_sum(int pixel, int h) const {
+    const std::uint64_t* sum = sums_[static_cast<std::size_t>(h)].data() + 3 * static_cast<std::size_t>(pixel);
+    return {radiance(sum[0]), radiance(sum[1]), radiance(sum[2])};
+  }
+
+  /// Mean over all samples; black before the first.
+  Image mean() const;
+  /// Mean over the samples of half h (0 or 1); black where it has none.
+  Image half_mean(int h) const;
+  /// Standard error of mean() as seen from the halves: |h0 - h1| sqrt(n0 n1) / (n0 + n1) with n0, n1 samples in them.
+  /// Its square is an unbiased estimate of the variance of the mean, also for correlated samplers; one pixel alone is
+  /// noisy (one degree of freedom). Infinite below two samples.
+  Image standard_error() const;
+
+  /// Bytes held.
+  std::size_t bytes() const {
+    return sizeof(Film) + (sums_[0].capacity() + sums_[1].capacity()) * sizeof(std::uint64_t);
+  }
+
+ private:
+  double radiance(std::uint64_t sum) const {
+    return static_cast<double>(static_cast<std::int64_t>(sum)) * (1 / scale_);
+  }
+  void add_unusual(std::uint64_t& sum, float value);
+
+  int width_ = 0;
+  int height_ = 0;
+  int samples_ = 0;
+  double scale_ = 1;              ///< a power of two
+  std::uint32_t limit_bits_ = 0;  ///< of the smallest float that does not fit into a sum
+  std::uint64_t invalid_ = 0;
+  std::uint64_t saturated_ = 0;
+  std::array<std::vector<std::uint64_t>, 2> sums_;  ///< by half; three a pixel, units of 1/scale_, below 2^63
+};
+
+}  // namespace glimt

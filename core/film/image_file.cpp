@@ -1,0 +1,88 @@
+#include "film/image_file.h"
+
+#include <new>
+
+#include "film/file_bytes.h"
+#include "film/image_formats.h"
+#include "scene/text.h"
+
+namespace glimt {
+namespace {
+
+enum class Format { png, exr, pfm };
+
+Format format_of(const std::filesystem::path& file) {
+  const std::filesystem::path ending = file.extension();
+  if (ending == ".png") return Format::png;
+  if (ending == ".exr") return Format::exr;
+  if (ending == ".pfm") return Format::pfm;
+  throw ImageFileError(file.string() + ": unknown ending \"" + ending.string() +
+                       "\"; allowed are .png (displayed picture), .exr and .pfm (linear radiance)");
+}
+
+/// f(), with whatever it throws as an ImageFileError that names the file.
+template <class F>
+auto naming(const std::filesystem::path& file, F f) {
+  try {
+    return f();
+  } catch (const ImageFileError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw ImageFileError(file.string() + ": not enough memory for an image of this size");
+  } catch (const std::exception& error) {
+    throw ImageFileError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void check_writable(const std::filesystem::path& file) {
+  format_of(file);
+  check_replaceable(file);
+}
+
+void write_png(const std::filesystem::path& file, const Image& radiance, const Display& display,
+               const Metadata& metadata) {
+  naming(file, [&] {
+    Metadata all = metadata;
+    all["exposure"] = number_text(display.exposure);
+    replace_file(file, encode_png(radiance.width, radiance.height, to_srgb8(radiance, display), all));
+  });
+}
+
+void write_image(const std::filesystem::path& file, const Film& film, const Display& display,
+                 const Metadata& metadata) {
+  naming(file, [&] {
+    switch (format_of(file)) {
+      case Format::png:
+        return write_png(file, film.mean(), display, metadata);
+      case Format::exr:
+        return replace_file(file, encode_exr(film.mean(), film.standard_error(), metadata));
+      case Format::pfm:
+        return replace_file(file, encode_pfm(film.mean()));
+    }
+  });
+}
+
+Image read_image(const std::filesystem::path& file) {
+  return naming(file, [&] {
+    const std::string bytes = read_file(file);
+    if (bytes.empty()) throw std::runtime_error("the file is empty; an EXR or PFM image is needed");
+    if (bytes.starts_with(exr_signature)) return decode_exr(bytes);
+    if (is_pfm(bytes)) return decode_pfm(bytes);
+    if (bytes.starts_with(png_signature))
+      throw std::runtime_error("a PNG holds the displayed picture, not radiance; allowed are EXR and PFM images");
+    throw std::runtime_error("neither an EXR nor a PFM image, which are the formats read");
+  });
+}
+
+Metadata read_metadata(const std::filesystem::path& file) {
+  return naming(file, [&]() -> Metadata {
+    const std::string bytes = read_file(file);
+    if (bytes.starts_with(png_signature)) return decode_png_metadata(bytes);
+    if (bytes.starts_with(exr_signature)) return decode_exr_metadata(bytes);
+    return {};
+  });
+}
+
+}  // namespace glimt

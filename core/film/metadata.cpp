@@ -1,0 +1,42 @@
+#include "film/metadata.h"
+
+#include "scene/fields.h"
+#include "scene/scene_file.h"
+#include "scene/text.h"
+
+namespace glimt {
+namespace {
+
+struct ValueText {
+  const Settings& settings;
+
+  std::string operator()(const Choice<Settings>& choice) const {
+    return std::string(choice.names[static_cast<std::size_t>(choice.get(settings))]);
+  }
+  std::string operator()(glm::dvec3 Settings::*member) const {
+    const glm::dvec3& v = settings.*member;
+    std::string text = "[";
+    for (int c = 0; c < 3; ++c) text += number_text(v[c]) + (c < 2 ? ", " : "]");
+    return text;
+  }
+  template <class T>
+  std::string operator()(T Settings::*member) const {
+    return number_text(settings.*member);
+  }
+};
+
+}  // namespace
+
+Metadata render_metadata(const Scene& scene, int samples, double seconds) {
+  Scene rendered = scene;
+  rendered.render.spp = samples;
+  Metadata metadata{{"scene", write_scene(rendered)},
+                    {"samples", std::to_string(samples)},
+                    {"seconds", number_text(seconds)},
+                    {"version", GLIMT_VERSION}};
+  for (const auto& field : settings_fields())
+    metadata[std::string(field.key)] = std::visit(ValueText{rendered.render}, field.member);
+  return metadata;
+}
+
+}  // namespace glimt

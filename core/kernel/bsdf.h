@@ -1,0 +1,67 @@
+#pragma once
+
+#include <numbers>
+
+#include "math/vec.h"
+
+/// Reflection and refraction. Directions point away from the surface, normals to the side they are on, unless said
+/// otherwise.
+namespace glimt {
+
+/// A and B of the Oren-Nayar model, per lane; 1 and 0 for Lambertian.
+template <class F>
+struct OrenNayar {
+  F a, b;
+  Mask<F> report;  ///< sin(beta) for tan(beta)
+};
+
+/// The BRDF over rho / pi: A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta), alpha the larger and beta the smaller
+/// angle to the normal (Oren and Nayar 1994, eq. 30; the report's eq. 7 prints sin(beta)). No angle is computed: with s
+/// = sin(theta_i) sin(theta_o) cos(phi_i - phi_o) = wi.wo - cos(theta_i) cos(theta_o), sin(alpha) tan(beta) cos(phi_i -
+/// phi_o) is s over the larger cosine.
+template <class F>
+F oren_nayar_factor(const OrenNayar<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
+  const F s = max(dot(wi, wo) - cos_i * cos_o, F(0.0f));
+  const F larger_cos = max(max(cos_i, cos_o), F(1e-6f));
+  return fma(m.b, select(m.report, s, s / larger_cos), m.a);
+}
+
+/// Where `direction`, moving towards the surface, goes on after a mirror.
+template <class F>
+Vec3<F> reflect(const Vec3<F>& direction, const Vec3<F>& normal) {
+  return fma(normal, F(-2.0f) * dot(direction, normal), direction);
+}
+
+/// A smooth surface between two dielectrics, for unpolarised light.
+template <class F>
+struct Dielectric {
+  F reflected;  ///< share of the light, 0..1; 1 past the critical angle
+  F cos_t;      ///< of the refracted direction to the normal; 0 past the critical angle
+};
+
+/// `cos_i` > 0 to the normal, `eta` = index on the other side over index on this side. Fresnel's equations, or
+/// Schlick's approximation (1994), which takes the angle on the thinner side.
+template <class F>
+Dielectric<F> fresnel(F cos_i, F eta, const Mask<F>& schlick) {
+  const F sin2_t = max(fma(F(0.0f) - cos_i, cos_i, F(1.0f)), F(0.0f)) / (eta * eta);
+  const Mask<F> total = sin2_t >= F(1.0f);
+  const F cos_t = sqrt(max(F(1.0f) - sin2_t, F(0.0f)));
+  const F perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  const F parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const F exact = F(0.5f) * fma(perpendicular, perpendicular, parallel * parallel);
+  const F root = (F(1.0f) - eta) / (F(1.0f) + eta);
+  const F r0 = root * root;
+  const F m = F(1.0f) - select(eta < F(1.0f), cos_t, cos_i);
+  const F m2 = m * m;
+  const F approximate = fma(F(1.0f) - r0, m2 * m2 * m, r0);
+  return {select(total, F(1.0f), select(schlick, approximate, exact)), select(total, F(0.0f), cos_t)};
+}
+
+/// Snell's law: where `direction`, moving against the normal, goes on behind the surface.
+template <class F>
+Vec3<F> refract(const Vec3<F>& direction, const Vec3<F>& normal, F cos_i, F cos_t, F eta) {
+  const F inverse_eta = F(1.0f) / eta;
+  return fma(normal, cos_i * inverse_eta - cos_t, direction * inverse_eta);
+}
+
+}  // namespace glimt

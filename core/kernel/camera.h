@@ -1,0 +1,135 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "kernel/kernels.h"
+#include "math/sampler.h"
+#include "math/vec.h"
+
+namespace glimt {
+
+/// Paths about to begin, as arrays so that free lanes are filled from them at once.
+template <class F>
+struct PathQueue {
+  static constexpr int batches = 16;
+  static constexpr int capacity = batches * lane_count<F>;
+  /// Places beyond the capacity are read, never used, when the last lanes are filled.
+  template <class T>
+  using Array = std::array<T, capacity + lane_count<F>>;
+
+  Array<float> direction_x, direction_y, direction_z;
+  Array<std::uint32_t> key_a, key_b;
+  Array<std::int32_t> path;  ///< number of the path in its block; -1 where there is none
+  int next = capacity;       ///< first place not taken yet
+};
+
+/// Where paths come from. Asked once for many paths, so the path loop is compiled once for all sources.
+template <class F>
+class PathSource {
+ public:
+  virtual ~PathSource() = default;
+  virtual Vec3<F> origin() const = 0;        ///< of all first rays, compiled space
+  virtual bool exhausted() const = 0;        ///< every path has been put into a queue
+  virtual void refill(PathQueue<F>& q) = 0;  ///< moves what is left in the queue to its front and fills the rest
+};
+
+/// Camera rays of a block, each through a uniform point of its pixel (box filter).
+template <class F>
+class CameraRays final : public PathSource<F> {
+ public:
+  CameraRays(const CompiledScene& scene, const PathBlock& block)
+      : scene_(scene), block_(block), x_(block.x0), y_(block.y0), sample_(block.first_sample) {}
+
+  Vec3<F> origin() const override { return vec(scene_.camera.eye); }
+  bool exhausted() const override { return next_path_ >= block_.paths(); }
+
+  void refill(PathQueue<F>& q) override {
+    const int kept = PathQueue<F>::capacity - q.next;
+    auto to_front = [&](auto& a) { std::copy(a.begin() + q.next, a.begin() + q.next + kept, a.begin()); };
+    to_front(q.direction_x), to_front(q.direction_y), to_front(q.direction_z);
+    to_front(q.key_a), to_front(q.key_b), to_front(q.path);
+    q.next = 0;
+    int place = kept;
+    for (; place + lane_count<F> <= PathQueue<F>::capacity && !exhausted(); place += lane_count<F>) generate(q, place);
+    std::fill(q.path.begin() + place, q.path.end(), -1);
+  }
+
+ private:
+  static Vec3<F> vec(const std::array<float, 3>& v) { return {F(v[0]), F(v[1]), F(v[2])}; }
+
+  void generate(PathQueue<F>& q, int place) {
+    std::array<std::int32_t, lane_count<F>> px, py;
+    std::array<std::uint32_t, lane_count<F>> pixel, sample;
+    for (std::size_t lane = 0; lane < lane_count<F>; ++lane) {
+      px[lane] = x_;
+      py[lane] = y_;
+      pixel[lane] = static_cast<std::uint32_t>(y_ * scene_.width + x_);
+      sample[lane] = sample_;
+      q.path[static_cast<std::size_t>(place) + lane] = exhausted() ? -1 : next_path_;
+      advance();
+    }
+    using U = Uint<F>;
+    const PathKey<F> key =
+        path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), load<U>(pixel.data()), load<U>(sample.data()));
+    const F x = to_float(load<Int<F>>(px.data())) + uniform<F>(key, U(static_cast<std::uint32_t>(Dimension::pixel_x)));
+    const F y = to_float(load<Int<F>>(py.data())) + uniform<F>(key, U(static_cast<std::uint32_t>(Dimension::pixel_y)));
+    const Vec3<F> direction =
+        normalize(fma(vec(scene_.camera.right), x, fma(vec(scene_.camera.down), y, vec(scene_.camera.corner))));
+    store(direction.x, q.direction_x.data() + place);
+    store(direction.y, q.direction_y.data() + place);
+    store(direction.z, q.direction_z.data() + place);
+    store(key.a, q.key_a.data() + place);
+    store(key.b, q.key_b.data() + place);
+  }
+
+  void advance() {
+    ++next_path_;
+    if (++x_ < block_.x0 + block_.width) return;
+    x_ = block_.x0;
+    if (++y_ < block_.y0 + block_.height) return;
+    y_ = block_.y0;
+    ++sample_;
+  }
+
+  const CompiledScene& scene_;
+  const PathBlock& block_;
+  int x_, y_;
+  std::uint32_t sample_;
+  int next_path_ = 0;
+};
+
+/// One path whose first ray is given.
+template <class F>
+class GivenRay final : public PathSource<F> {
+ public:
+  GivenRay(const CompiledScene& scene, const GivenPath& path) : scene_(scene), path_(path) {}
+
+  Vec3<F> origin() const override {
+    auto component = [&](std::size_t k) { return F(static_cast<float>(path_.origin[k] - scene_.origin[k])); };
+    return {component(0), component(1), component(2)};
+  }
+  bool exhausted() const override { return used_; }
+
+  void refill(PathQueue<F>& q) override {
+    const PathKey<F> key =
+        path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), Uint<F>(path_.pixel), Uint<F>(path_.sample));
+    store(F(static_cast<float>(path_.direction[0])), q.direction_x.data());
+    store(F(static_cast<float>(path_.direction[1])), q.direction_y.data());
+    store(F(static_cast<float>(path_.direction[2])), q.direction_z.data());
+    store(key.a, q.key_a.data());
+    store(key.b, q.key_b.data());
+    q.path.fill(-1);
+    if (!used_) q.path[0] = 0;
+    q.next = 0;
+    used_ = true;
+  }
+
+ private:
+  const CompiledScene& scene_;
+  const GivenPath& path_;
+  bool used_ = false;
+};
+
+}  // namespace glimt

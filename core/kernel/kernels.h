@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "scene/compiled_scene.h"
+
+namespace glimt {
+
+/// How many paths a thread traces side by side.
+enum class Lanes { scalar, native };
+
+/// Width of `Lanes::native` in this binary: 16, 8 or 4.
+int native_lane_count();
+
+/// A rectangle of pixels and a range of their samples: the paths that one call traces.
+struct PathBlock {
+  int x0 = 0, y0 = 0;         ///< upper left pixel
+  int width = 0, height = 0;  ///< in pixels
+  std::uint32_t first_sample = 0;
+  int samples = 0;  ///< per pixel
+
+  int paths() const { return width * height * samples; }
+};
+
+/// Radiance of every path of the block, into rgb[3 * paths()]: sample by sample, in each row by row. A path's value is
+/// a pure function of (scene, seed, pixel, sample): the same for every block it is in and every lane width.
+void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, float* rgb);
+
+/// A path whose first ray is not the camera's.
+struct GivenPath {
+  std::array<double, 3>
+      origin{};  ///< scene coordinates, in the region that the camera sees: the rest may have been left out
+  std::array<double, 3> direction{};  ///< of unit length
+  std::uint32_t pixel = 0;            ///< with `sample`, names the random numbers
+  std::uint32_t sample = 0;
+};
+
+/// Radiance that arrives at the path's origin from its direction; for tests that need rays of their own.
+Rgb trace_ray(const CompiledScene& scene, const GivenPath& path, Lanes lanes);
+
+}  // namespace glimt

@@ -1,0 +1,302 @@
+#pragma once
+
+#include <bit>
+
+#include "kernel/bsdf.h"
+#include "kernel/camera.h"
+#include "kernel/intersect.h"
+#include "kernel/light.h"
+#include "kernel/trace.h"
+
+/// The path loop: one path a lane, no recursion. A lane whose path has ended takes the next path at once.
+namespace glimt {
+
+/// The state of one path a lane, between two surfaces.
+template <class F>
+struct PathState {
+  Ray<F> ray;
+  Vec3<F> throughput;  ///< product of bsdf cos / pdf so far, radiance to radiance
+  Vec3<F> radiance;    ///< gathered so far, W/(m^2 sr)
+  F ior2;              ///< square of the refractive index here over that at the camera; 1 without glass
+  Mask<F> sees_lamps;  ///< the last surface was specular (or the camera): a lamp that is hit counts
+  PathKey<F> key;
+  Int<F> dimension;  ///< first of the next hit's block; counts the hits too
+  Int<F> path;       ///< number in the block, or -1 for a lane without work
+};
+
+/// What a hit point looks like.
+template <class F>
+struct Shading {
+  Vec3<F> point;
+  Vec3<F> normal;  ///< unit, to the side the ray comes from
+  F cos_o;         ///< of the ray's way back to the normal
+  Mask<F> front;   ///< the side of the surface's own normal
+  Int<F> surface;
+  Int<F> kind;
+};
+
+template <class F, Features features>
+class PathTracer {
+  using I = Int<F>;
+  using U = Uint<F>;
+  using M = Mask<F>;
+  using V = Vec3<F>;
+
+ public:
+  PathTracer(const CompiledScene& scene, float* rgb)
+      : scene_(scene),
+        surfaces_(scene.surfaces[Column{}]),
+        rgb_(rgb),
+        hit_block_(hit_dimensions(scene.settings.shadow_rays)),
+        roulette_begin_(camera_dimensions + hit_block_ * (scene.settings.roulette == Roulette::constant
+                                                              ? trapped_depth
+                                                              : scene.settings.roulette_depth)),
+        next_event_(scene.settings.method == Method::path && scene.lamps.rows() > 0) {}
+
+  /// Traces all paths of the source and writes each one's radiance to rgb[3 * its number].
+  void run(PathSource<F>& source) {
+    PathQueue<F> queue;
+    PathState<F> s{};
+    s.path = I(-1);
+    s.ior2 = F(1.0f);
+    const V origin = source.origin();
+    s.ray = {origin, {F(0.0f), F(0.0f), F(1.0f)}, I(-1)};
+    for (;;) {
+      const M idle = less(s.path, I(0));
+      if (any(idle)) {
+        begin_paths(source, origin, queue, s, idle);
+        if (!any(less(I(-1), s.path))) return;
+      }
+      const M ended = step(s) & less(I(-1), s.path);
+      finish(s, ended);
+    }
+  }
+
+ private:
+  void begin_paths(PathSource<F>& source, const V& origin, PathQueue<F>& q, PathState<F>& s, const M& idle) {
+    const int wanted = std::popcount(bits(idle));
+    if (q.next + wanted > PathQueue<F>::capacity) {
+      if (source.exhausted() && q.next >= PathQueue<F>::capacity) return;
+      source.refill(q);
+    }
+    const auto place = static_cast<std::size_t>(q.next);
+    s.ray.origin = select(idle, origin, s.ray.origin);
+    s.ray.direction = {expand<F, F>(s.ray.direction.x, idle, &q.direction_x[place]),
+                       expand<F, F>(s.ray.direction.y, idle, &q.direction_y[place]),
+                       expand<F, F>(s.ray.direction.z, idle, &q.direction_z[place])};
+    s.ray.from = select(idle, I(-1), s.ray.from);
+    s.key = {expand<U, F>(s.key.a, idle, &q.key_a[place]), expand<U, F>(s.key.b, idle, &q.key_b[place])};
+    s.path = expand<I, F>(s.path, idle, &q.path[place]);
+    s.throughput = select(idle, V::all(F(1.0f)), s.throughput);
+    s.radiance = select(idle, V::all(F(0.0f)), s.radiance);
+    if (scene_.has_glass) s.ior2 = select(idle, F(1.0f), s.ior2);
+    s.sees_lamps = s.sees_lamps | idle;
+    s.dimension = select(idle, I(camera_dimensions), s.dimension);
+    q.next += wanted;
+  }
+
+  /// One surface for every lane; returns the lanes whose paths end there.
+  M step(PathState<F>& s) const {
+    const Hit<F> hit = closest_hit<F, features>(scene_, s.ray);
+    const M missed = !(hit.t < F(std::numeric_limits<float>::infinity()));
+    const Shading<F> at = shade(s.ray, hit);
+    const M light = equal(at.kind, I(kind_light));
+    M ended = missed | light;
+
+    add_emission(s, at, light, missed);
+    const M diffuse = equal(at.kind, I(kind_diffuse)) & !missed;
+    V throughput = s.throughput;
+    V direction = s.ray.direction;
+    if (any(diffuse)) scatter_diffuse(s, at, diffuse, throughput, direction);
+    if (scene_.has_mirror) {
+      const M mirror = equal(at.kind, I(kind_mirror));
+      direction = select(mirror, reflect(s.ray.direction, at.normal), direction);
+      throughput = select(mirror, s.throughput * reflectance(at), throughput);
+    }
+    if (scene_.has_glass) {
+      const M glass = equal(at.kind, I(kind_glass)) & !missed;
+      if (any(glass)) scatter_glass(s, at, glass, throughput, direction);
+    }
+    s.ray = {at.point, direction, at.surface};
+    s.throughput = throughput;
+    s.sees_lamps = next_event_ ? !diffuse : M(F(0.0f) < F(1.0f));
+    ended = ended | !(max_component(s.throughput) > F(0.0f));
+    ended = ended | roulette(s, diffuse);
+    s.dimension = s.dimension + I(hit_block_);
+    return ended;
+  }
+
+  void finish(PathState<F>& s, const M& ended) const {
+    std::uint32_t lanes = bits(ended);
+    if (lanes == 0) return;
+    std::array<float, lane_count<F>> r, g, b;
+    std::array<std::int32_t, lane_count<F>> path;
+    store(s.radiance.x, r.data());
+    store(s.radiance.y, g.data());
+    store(s.radiance.z, b.data());
+    store(s.path, path.data());
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      float* out = rgb_ + 3 * static_cast<std::ptrdiff_t>(path[lane]);
+      out[0] = r[lane];
+      out[1] = g[lane];
+      out[2] = b[lane];
+    }
+    s.path = select(ended, I(-1), s.path);
+  }
+
+  F value(Column column, const Shading<F>& at) const {
+    if constexpr (features.small_table) {
+      return lookup_small(surfaces_ + static_cast<std::ptrdiff_t>(column) * small_stride, at.surface);
+    } else {
+      return lookup(scene_.surfaces[column], at.surface);
+    }
+  }
+  V vector(Column first, const Shading<F>& at) const {
+    const int c = static_cast<int>(first);
+    return {value(first, at), value(static_cast<Column>(c + 1), at), value(static_cast<Column>(c + 2), at)};
+  }
+  V reflectance(const Shading<F>& at) const { return vector(Column::reflectance_r, at); }
+
+  Shading<F> shade(const Ray<F>& ray, const Hit<F>& hit) const {
+    Shading<F> at;
+    at.surface = hit.surface;
+    at.point = fma(ray.direction, hit.t, ray.origin);
+    const V n = vector(Column::normal_x, at);
+    const F inverse_radius = value(Column::inverse_radius, at);
+    at.normal = select(inverse_radius > F(0.0f), (at.point - n) * inverse_radius, n);
+    const F cos = dot(at.normal, ray.direction);
+    at.front = cos < F(0.0f);
+    at.normal = select(at.front, at.normal, at.normal * F(-1.0f));
+    at.cos_o = abs(cos);
+    at.kind = as_int(value(Column::kind, at));
+    return at;
+  }
+
+  void add_emission(PathState<F>& s, const Shading<F>& at, const M& light, const M& missed) const {
+    M shines = light & at.front & s.sees_lamps;
+    if (features.rare && scene_.has_glow) shines = shines | !light;
+    shines = shines & !missed;
+    if (!any(shines)) return;
+    const V emission = select(shines, vector(Column::emission_r, at), V::all(F(0.0f)));
+    s.radiance = s.radiance + s.throughput * emission;
+  }
+
+  OrenNayar<F> oren_nayar(const Shading<F>& at) const {
+    return {value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
+            value(Column::oren_nayar_report, at) > F(0.5f)};
+  }
+
+  F random(const PathState<F>& s, HitDimension dimension, std::uint32_t offset = 0) const {
+    return uniform<F>(s.key, as_uint(s.dimension) + U(static_cast<std::uint32_t>(dimension) + offset));
+  }
+
+  /// Next-event estimation, then a direction in proportion to the cosine.
+  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, V& throughput, V& direction) const {
+    const V wo = s.ray.direction * F(-1.0f);
+    const V albedo = reflectance(at);
+    const V through = s.throughput * albedo;
+    OrenNayar<F> rough{F(1.0f), F(0.0f), F(1.0f) < F(0.0f)};
+    if (features.oren_nayar) rough = oren_nayar(at);
+    if (next_event_) {
+      V direct = V::all(F(0.0f));
+      for (int k = 0; k < scene_.settings.shadow_rays; ++k) {
+        const auto first = static_cast<std::uint32_t>(k) * shadow_dimensions;
+        const LampSample<F> lamp = sample_lamp<F, features.one_rectangle>(
+            scene_, at.point, random(s, HitDimension::shadow, first), random(s, HitDimension::shadow, first + 1),
+            random(s, HitDimension::shadow, first + 2));
+        const F cos_i = dot(lamp.direction, at.normal);
+        const M lit = diffuse & (cos_i > F(0.0f)) & (max_component(lamp.radiance_over_pdf) > F(0.0f));
+        if (!any(lit)) continue;
+        const Ray<F> shadow{at.point, lamp.direction, at.surface};
+        const M seen =
+            lit & !occluded<F, features>(scene_, shadow, lamp.distance, lamp.first_surface, lamp.last_surface);
+        F factor = select(seen, cos_i, F(0.0f));
+        if (features.oren_nayar) factor = factor * oren_nayar_factor(rough, lamp.direction, wo, cos_i, at.cos_o);
+        direct = fma(lamp.radiance_over_pdf, factor, direct);
+      }
+      const F scale(std::numbers::inv_pi_v<float> / static_cast<float>(scene_.settings.shadow_rays));
+      s.radiance = s.radiance + through * select(diffuse, direct * scale, V::all(F(0.0f)));
+    }
+    const V wi =
+        cosine_hemisphere(at.normal, random(s, HitDimension::direction_u), random(s, HitDimension::direction_v));
+    V next = through;
+    if (features.oren_nayar) next = next * oren_nayar_factor(rough, wi, wo, max(dot(wi, at.normal), F(0.0f)), at.cos_o);
+    throughput = select(diffuse, next, throughput);
+    direction = select(diffuse, wi, direction);
+  }
+
+  /// Reflection or refraction, chosen by Fresnel, so both keep the throughput but for the square of the index.
+  void scatter_glass(PathState<F>& s, const Shading<F>& at, const M& glass, V& throughput, V& direction) const {
+    const F ratio = value(Column::eta, at);
+    const F eta = select(at.front, ratio, F(1.0f) / ratio);
+    const Dielectric<F> interface = fresnel(at.cos_o, eta, value(Column::schlick, at) > F(0.5f));
+    const M reflected = random(s, HitDimension::direction_u) < interface.reflected;
+    const V mirrored = reflect(s.ray.direction, at.normal);
+    const V refracted = refract(s.ray.direction, at.normal, at.cos_o, interface.cos_t, eta);
+    // Many in a row would let the length drift.
+    direction = select(glass, normalize(select(reflected, mirrored, refracted)), direction);
+    // Radiance in the medium behind is eta^2 times as large as on this side, so this much of it arrives.
+    const F scale = select(glass & !reflected, F(1.0f) / (eta * eta), F(1.0f));
+    throughput = select(glass, s.throughput * scale, throughput);
+    s.ior2 = s.ior2 / scale;
+  }
+
+  /// Ends paths at random and makes up for it in those that go on.
+  M roulette(PathState<F>& s, const M& diffuse) const {
+    const bool constant = scene_.settings.roulette == Roulette::constant;
+    const M late = !less(s.dimension, I(roulette_begin_));
+    const M plays = constant ? diffuse | late : late;
+    if (!any(plays)) return plays;
+    // The square of the index is left out: it comes back when the path leaves the glass.
+    const F survival = constant ? F(constant_survival) : min(max_component(s.throughput) * s.ior2, F(largest_survival));
+    const M dies = plays & !(random(s, HitDimension::roulette) < survival);
+    s.throughput = select(plays, s.throughput * (F(1.0f) / survival), s.throughput);
+    return dies;
+  }
+
+  static constexpr auto camera_dimensions = static_cast<std::int32_t>(Dimension::camera_count);
+  static constexpr float constant_survival = 0.75f;  ///< the report's
+  static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
+  static constexpr float largest_survival = 0.95f;   ///< below 1, so that light trapped in glass ends
+
+  static constexpr int small_stride = 32;  ///< of tables with up to 32 rows, so that columns are at fixed places
+
+  const CompiledScene& scene_;
+  const float* surfaces_;
+  float* rgb_;
+  std::int32_t hit_block_;       ///< dimensions of a hit
+  std::int32_t roulette_begin_;  ///< `dimension` of the first hit at which every path plays roulette
+  bool next_event_;
+};
+
+template <class F>
+void trace_source(const CompiledScene& scene, PathSource<F>& source, float* rgb) {
+  const bool rare = scene.has_glow || !scene.triangles.empty() || !scene.shells.empty() || scene.room_hides_lamps ||
+                    std::any_of(scene.solids.begin(), scene.solids.end(), [](const Solid& s) { return s.glass; });
+  const bool one_rectangle =
+      scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
+  if (rare || !one_rectangle || scene.surfaces.rows() > small_table) {
+    PathTracer<F, Features{false, false, true, true}>(scene, rgb).run(source);
+  } else if (scene.has_oren_nayar) {
+    PathTracer<F, Features{true, true, true, false}>(scene, rgb).run(source);
+  } else {
+    PathTracer<F, Features{true, true, false, false}>(scene, rgb).run(source);
+  }
+}
+
+template <class F>
+void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb) {
+  CameraRays<F> rays(scene, block);
+  trace_source<F>(scene, rays, rgb);
+}
+
+template <class F>
+Rgb trace_given_ray(const CompiledScene& scene, const GivenPath& path) {
+  GivenRay<F> ray(scene, path);
+  std::array<float, 3> rgb{};
+  trace_source<F>(scene, ray, rgb.data());
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
+}  // namespace glimt

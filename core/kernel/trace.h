@@ -1,0 +1,21 @@
+#pragma once
+
+#include "kernel/kernels.h"
+#include "math/lanes.h"
+
+/// The kernel's entry points for one lane type. Defined in path.h; instantiated once in kernel_scalar.cpp and once in
+/// kernel_simd.cpp.
+namespace glimt {
+
+template <class F>
+void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb);
+
+template <class F>
+Rgb trace_given_ray(const CompiledScene& scene, const GivenPath& path);
+
+extern template void trace_block<float>(const CompiledScene&, const PathBlock&, float*);
+extern template void trace_block<NativeLanes>(const CompiledScene&, const PathBlock&, float*);
+extern template Rgb trace_given_ray<float>(const CompiledScene&, const GivenPath&);
+extern template Rgb trace_given_ray<NativeLanes>(const CompiledScene&, const GivenPath&);
+
+}  // namespace glimt

@@ -1,0 +1,261 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <xsimd/xsimd.hpp>
+
+/// Lanes: the kernel is written once for a type F that is either float or a SIMD batch of floats, one path per lane.
+/// This is the only file that names xsimd. The functions below mean the same for every F and are exact (IEEE) or
+/// bit-wise, so a lane computes the same value at every width. A mask of a batch never converts to bool: ask any() or
+/// bits().
+namespace glimt {
+
+template <class F>
+struct LaneTypes;
+
+template <>
+struct LaneTypes<float> {
+  using Int = std::int32_t;
+  using Uint = std::uint32_t;
+  using Mask = bool;
+  static constexpr int width = 1;
+};
+
+template <class A>
+struct LaneTypes<xsimd::batch<float, A>> {
+  using Int = xsimd::batch<std::int32_t, A>;
+  using Uint = xsimd::batch<std::uint32_t, A>;
+  using Mask = xsimd::batch_bool<float, A>;
+  static constexpr int width = static_cast<int>(xsimd::batch<float, A>::size);
+};
+
+template <class F>
+using Int = typename LaneTypes<F>::Int;
+template <class F>
+using Uint = typename LaneTypes<F>::Uint;
+template <class F>
+using Mask = typename LaneTypes<F>::Mask;
+template <class F>
+inline constexpr int lane_count = LaneTypes<F>::width;
+
+using NativeLanes = xsimd::batch<float>;
+
+// One lane.
+
+inline bool any(bool m) { return m; }
+inline std::uint32_t bits(bool m) { return m ? 1u : 0u; }
+inline float select(bool m, float a, float b) { return m ? a : b; }
+inline std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
+inline std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
+inline float fma(float a, float b, float c) { return std::fma(a, b, c); }
+inline float sqrt(float a) { return std::sqrt(a); }
+inline float abs(float a) { return std::abs(a); }
+inline float min(float a, float b) { return a < b ? a : b; }
+inline float max(float a, float b) { return a > b ? a : b; }
+inline bool equal(std::int32_t a, std::int32_t b) { return a == b; }
+inline bool less(std::int32_t a, std::int32_t b) { return a < b; }
+inline float to_float(std::int32_t a) { return static_cast<float>(a); }
+inline std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
+inline std::int32_t as_int(float a) { return std::bit_cast<std::int32_t>(a); }
+inline std::int32_t as_int(std::uint32_t a) { return static_cast<std::int32_t>(a); }
+inline std::uint32_t as_uint(std::int32_t a) { return static_cast<std::uint32_t>(a); }
+
+// Many lanes.
+
+template <class A>
+bool any(xsimd::batch_bool<float, A> m) {
+  return xsimd::any(m);
+}
+
+/// Bit i is lane i.
+template <class A>
+std::uint32_t bits(xsimd::batch_bool<float, A> m) {
+  using Register = typename xsimd::batch_bool<float, A>::register_type;
+  if constexpr (std::is_integral_v<Register>) {
+    return static_cast<std::uint32_t>(m.data);
+#ifdef __AVX__
+  } else if constexpr (std::is_same_v<Register, __m256>) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(m.data));
+#endif
+  } else {
+    std::array<bool, xsimd::batch_bool<float, A>::size> lane;
+    m.store_unaligned(lane.data());
+    std::uint32_t result = 0;
+    for (std::size_t i = 0; i < lane.size(); ++i) result |= std::uint32_t{lane[i]} << i;
+    return result;
+  }
+}
+
+/// The same lanes as a mask over another element type of the same size.
+template <class To, class From, class A>
+xsimd::batch_bool<To, A> mask_cast(xsimd::batch_bool<From, A> m) {
+  return std::bit_cast<typename xsimd::batch_bool<To, A>::register_type>(m.data);
+}
+
+template <class A>
+xsimd::batch<float, A> select(xsimd::batch_bool<float, A> m, xsimd::batch<float, A> a, xsimd::batch<float, A> b) {
+  return xsimd::select(m, a, b);
+}
+template <class A>
+xsimd::batch<std::int32_t, A> select(xsimd::batch_bool<float, A> m, xsimd::batch<std::int32_t, A> a,
+                                     xsimd::batch<std::int32_t, A> b) {
+  return xsimd::select(mask_cast<std::int32_t>(m), a, b);
+}
+template <class A>
+xsimd::batch<std::uint32_t, A> select(xsimd::batch_bool<float, A> m, xsimd::batch<std::uint32_t, A> a,
+                                      xsimd::batch<std::uint32_t, A> b) {
+  return xsimd::select(mask_cast<std::uint32_t>(m), a, b);
+}
+
+template <class A>
+xsimd::batch<float, A> fma(xsimd::batch<float, A> a, xsimd::batch<float, A> b, xsimd::batch<float, A> c) {
+  return xsimd::fma(a, b, c);
+}
+template <class A>
+xsimd::batch<float, A> sqrt(xsimd::batch<float, A> a) {
+  return xsimd::sqrt(a);
+}
+template <class A>
+xsimd::batch<float, A> abs(xsimd::batch<float, A> a) {
+  return xsimd::abs(a);
+}
+template <class A>
+xsimd::batch<float, A> min(xsimd::batch<float, A> a, xsimd::batch<float, A> b) {
+  return xsimd::min(a, b);
+}
+template <class A>
+xsimd::batch<float, A> max(xsimd::batch<float, A> a, xsimd::batch<float, A> b) {
+  return xsimd::max(a, b);
+}
+template <class A>
+xsimd::batch_bool<float, A> equal(xsimd::batch<std::int32_t, A> a, xsimd::batch<std::int32_t, A> b) {
+  return mask_cast<float>(a == b);
+}
+template <class A>
+xsimd::batch_bool<float, A> less(xsimd::batch<std::int32_t, A> a, xsimd::batch<std::int32_t, A> b) {
+  return mask_cast<float>(a < b);
+}
+template <class A>
+xsimd::batch<float, A> to_float(xsimd::batch<std::int32_t, A> a) {
+  return xsimd::to_float(a);
+}
+/// Towards zero.
+template <class A>
+xsimd::batch<std::int32_t, A> to_int(xsimd::batch<float, A> a) {
+  return xsimd::to_int(a);
+}
+/// The same bits.
+template <class A>
+xsimd::batch<std::int32_t, A> as_int(xsimd::batch<float, A> a) {
+  return xsimd::bitwise_cast<xsimd::batch<std::int32_t, A>>(a);
+}
+template <class A>
+xsimd::batch<std::int32_t, A> as_int(xsimd::batch<std::uint32_t, A> a) {
+  return xsimd::bitwise_cast<xsimd::batch<std::int32_t, A>>(a);
+}
+
+template <class A>
+xsimd::batch<std::uint32_t, A> as_uint(xsimd::batch<std::int32_t, A> a) {
+  return xsimd::bitwise_cast<xsimd::batch<std::uint32_t, A>>(a);
+}
+
+/// Consecutive elements from memory, one a lane; `V` is a lane type of float, int32 or uint32.
+template <class V, class T>
+V load(const T* from) {
+  if constexpr (std::is_arithmetic_v<V>) {
+    return *from;
+  } else {
+    return V::load_unaligned(from);
+  }
+}
+
+template <class V, class T>
+void store(V value, T* to) {
+  if constexpr (std::is_arithmetic_v<V>) {
+    *to = value;
+  } else {
+    value.store_unaligned(to);
+  }
+}
+
+/// table[index] in every lane.
+inline float lookup(const float* table, std::int32_t index) { return table[index]; }
+
+template <class A>
+xsimd::batch<float, A> lookup(const float* table, xsimd::batch<std::int32_t, A> index) {
+  return xsimd::batch<float, A>::gather(table, index);
+}
+
+/// Tables with no more entries than this can be looked up by permuting registers, which is faster than a gather.
+inline constexpr int small_table = 16;
+
+/// The same for 0 <= index < small_table; the table is 64-byte aligned and has small_table entries.
+inline float lookup_small(const float* table, std::int32_t index) { return table[index]; }
+
+template <class A>
+xsimd::batch<float, A> lookup_small(const float* table, xsimd::batch<std::int32_t, A> index) {
+  using F = xsimd::batch<float, A>;
+  using Register [[maybe_unused]] = typename F::register_type;
+#ifdef __AVX512F__
+  if constexpr (std::is_same_v<Register, __m512>) return F(_mm512_permutexvar_ps(index.data, _mm512_load_ps(table)));
+#endif
+#ifdef __AVX2__
+  if constexpr (std::is_same_v<Register, __m256>) {
+    const __m256 low = _mm256_permutevar8x32_ps(_mm256_load_ps(table), index.data);
+    const __m256 high = _mm256_permutevar8x32_ps(_mm256_load_ps(table + 8), index.data);
+    // Bit 3 of the index chooses the register; blendv looks at the sign bit.
+    return F(_mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index.data, 28))));
+  }
+#endif
+  return lookup(table, index);
+}
+
+namespace detail {
+
+/// For each 8-bit mask and lane: how many lanes below it are in the mask.
+inline constexpr auto lane_rank = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> rank{};
+  for (unsigned mask = 0; mask < 256; ++mask)
+    for (unsigned lane = 0; lane < 8; ++lane)
+      rank[mask][lane] = static_cast<std::uint8_t>(std::popcount(mask & ((1u << lane) - 1)));
+  return rank;
+}();
+
+}  // namespace detail
+
+/// Lanes in the mask take the elements of `from` one after the other, in lane order; the others keep their value. As
+/// many elements as there are lanes must be readable.
+template <class V, class F, class T>
+V expand(V old, Mask<F> mask, const T* from) {
+  static_assert(sizeof(T) == 4);
+  if constexpr (std::is_arithmetic_v<V>) {
+    return mask ? *from : old;
+  } else {
+    using Register [[maybe_unused]] = typename F::register_type;
+#ifdef __AVX512F__
+    if constexpr (std::is_same_v<Register, __m512>) {
+      return V(std::bit_cast<typename V::register_type>(_mm512_mask_expand_ps(
+          std::bit_cast<__m512>(old.data), mask.data, _mm512_loadu_ps(reinterpret_cast<const float*>(from)))));
+    }
+#endif
+#ifdef __AVX2__
+    if constexpr (std::is_same_v<Register, __m256>) {
+      const auto& rank = detail::lane_rank[bits(mask)];
+      const __m256i index = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(rank.data())));
+      const __m256 taken = _mm256_permutevar8x32_ps(_mm256_loadu_ps(reinterpret_cast<const float*>(from)), index);
+      return V(std::bit_cast<typename V::register_type>(
+          _mm256_blendv_ps(std::bit_cast<__m256>(old.data), taken, mask.data)));
+    }
+#endif
+    std::array<T, F::size> lane;
+    old.store_unaligned(lane.data());
+    for (std::uint32_t m = bits(mask); m != 0; m &= m - 1)
+      lane[static_cast<std::size_t>(std::countr_zero(m))] = *from++;
+    return V::load_unaligned(lane.data());
+  }
+}
+
+}  // namespace glimt

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "math/lanes.h"
+
+namespace glimt {
+
+/// A vector or colour with one value per lane in each component.
+template <class F>
+struct Vec3 {
+  F x, y, z;
+
+  static Vec3 all(F v) { return {v, v, v}; }
+
+  friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator*(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend Vec3 operator*(const Vec3& a, F s) { return {a.x * s, a.y * s, a.z * s}; }
+};
+
+/// Never -0, so that a quotient by it has the sign that "parallel" needs.
+template <class F>
+F dot(const Vec3<F>& a, const Vec3<F>& b) {
+  return fma(a.x, b.x, fma(a.y, b.y, fma(a.z, b.z, F(0.0f))));
+}
+
+/// a s + b
+template <class F>
+Vec3<F> fma(const Vec3<F>& a, F s, const Vec3<F>& b) {
+  return {fma(a.x, s, b.x), fma(a.y, s, b.y), fma(a.z, s, b.z)};
+}
+
+template <class F>
+Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
+  return {fma(a.y, b.z, F(0.0f) - a.z * b.y), fma(a.z, b.x, F(0.0f) - a.x * b.z), fma(a.x, b.y, F(0.0f) - a.y * b.x)};
+}
+
+template <class F>
+Vec3<F> normalize(const Vec3<F>& a) {
+  return a * (F(1.0f) / sqrt(dot(a, a)));
+}
+
+template <class F>
+Vec3<F> select(const Mask<F>& m, const Vec3<F>& a, const Vec3<F>& b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+
+template <class F>
+F max_component(const Vec3<F>& a) {
+  return max(a.x, max(a.y, a.z));
+}
+
+}  // namespace glimt

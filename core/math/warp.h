@@ -1,0 +1,53 @@
+#pragma once
+
+#include <numbers>
+
+#include "math/vec.h"
+
+/// Maps from the unit square to what is sampled.
+namespace glimt {
+
+template <class F>
+struct SinCos {
+  F sin, cos;
+};
+
+/// sin and cos of 2 pi u for u in [0, 1), each within 7e-7. Polynomials (Chebyshev fits on [-pi/2, pi/2]) for half the
+/// angle, then the double angle, so that no range reduction is needed.
+template <class F>
+SinCos<F> sincos_turns(F u) {
+  const F a = u - F(0.5f);  // half the angle is pi a, the angle itself is 2 pi u - pi
+  const F q = a * a;
+  const F sine = a * fma(q, fma(q, fma(q, fma(q, F(0.0776576623f), F(-0.598291278f)), F(2.55007744f)), F(-5.1677103f)),
+                         F(3.14159274f));
+  const F cosine =
+      fma(q,
+          fma(q, fma(q, fma(q, fma(q, F(-0.0243963245f), F(0.23493731f)), F(-1.33521199f)), F(4.05870914f)),
+              F(-4.93480206f)),
+          F(1.0f));
+  return {F(-2.0f) * sine * cosine, fma(F(2.0f) * sine, sine, F(-1.0f))};
+}
+
+/// A point on the unit sphere; pdf_w = 1 / (4 pi).
+template <class F>
+Vec3<F> uniform_sphere(F u, F v) {
+  const F z = fma(F(-2.0f), u, F(1.0f));
+  const F r = sqrt(max(fma(F(0.0f) - z, z, F(1.0f)), F(0.0f)));
+  const SinCos<F> turn = sincos_turns(v);
+  return {r * turn.cos, r * turn.sin, z};
+}
+
+/// A direction about the unit normal n with pdf_w = cos(theta) / pi. A uniform point of the sphere that touches the
+/// surface from above, seen from the touching point, is cosine-distributed; so n + uniform_sphere needs no tangent
+/// frame.
+template <class F>
+Vec3<F> cosine_hemisphere(const Vec3<F>& n, F u, F v) {
+  const Vec3<F> w = n + uniform_sphere(u, v);
+  // The sphere's point opposite to n has no direction; the square below is about the smallest that rounding leaves
+  // elsewhere.
+  const F square = dot(w, w);
+  const Mask<F> defined = square > F(1e-12f);
+  return select(defined, w * (F(1.0f) / sqrt(select(defined, square, F(1.0f)))), n);
+}
+
+}  // namespace glimt

@@ -1,0 +1,81 @@
+#include "render/render.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <vector>
+
+namespace glimt {
+
+namespace {
+
+constexpr int tile_size = 32;      ///< pixels, square
+constexpr int block_paths = 4096;  ///< paths a thread traces before it looks up; their radiance fits the cache
+
+/// Squares that cover the film. A thread has one to itself, so no two add to the same pixel.
+std::vector<PathBlock> tiles_of(const Film& film) {
+  std::vector<PathBlock> tiles;
+  for (int y = 0; y < film.height(); y += tile_size)
+    for (int x = 0; x < film.width(); x += tile_size)
+      tiles.push_back({x, y, std::min(tile_size, film.width() - x), std::min(tile_size, film.height() - y), 0, 0});
+  return tiles;
+}
+
+void add_to_film(Film& film, const PathBlock& block, const float* rgb) {
+  for (int sample = 0; sample < block.samples; ++sample) {
+    const int half = static_cast<int>((block.first_sample + static_cast<std::uint32_t>(sample)) & 1u);
+    const auto row = 3 * static_cast<std::size_t>(block.width);
+    for (int y = block.y0; y < block.y0 + block.height; ++y, rgb += row)
+      film.add(y * film.width() + block.x0, half, {rgb, row});
+  }
+}
+
+}  // namespace
+
+int hardware_threads() { return omp_get_num_procs(); }
+
+Film make_film(const CompiledScene& scene) { return Film(scene.width, scene.height, scene.max_radiance); }
+
+bool render_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution,
+                 const std::atomic<bool>* cancel) {
+  const std::vector<PathBlock> tiles = tiles_of(film);
+  const int threads = execution.threads > 0 ? execution.threads : hardware_threads();
+  std::atomic<bool> stop{false};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto tile_count = static_cast<std::ptrdiff_t>(tiles.size());
+
+#pragma omp parallel num_threads(threads)
+  {
+    std::vector<float> rgb;
+#pragma omp for schedule(dynamic)
+    for (std::ptrdiff_t i = 0; i < tile_count; ++i) {
+      // Exceptions must not leave the parallel loop.
+      try {
+        rgb.resize(3 * block_paths);
+        PathBlock block = tiles[static_cast<std::size_t>(i)];
+        const int most = block_paths / (block.width * block.height);
+        for (int first = 0; first < count; first += most) {
+          if (cancel && cancel->load(std::memory_order_relaxed)) stop = true;
+          if (stop.load(std::memory_order_relaxed)) break;
+          block.first_sample = static_cast<std::uint32_t>(film.samples() + first);
+          block.samples = std::min(most, count - first);
+          trace(scene, block, execution.lanes, rgb.data());
+          add_to_film(film, block, rgb.data());
+        }
+      } catch (...) {
+        const std::lock_guard lock(failure_mutex);
+        failure = std::current_exception();
+        stop = true;
+      }
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  if (stop) return false;
+  film.finish_pass(count);
+  return true;
+}
+
+}  // namespace glimt

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "film/film.h"
+#include "kernel/kernels.h"
+#include "scene/compiled_scene.h"
+
+namespace glimt {
+
+/// How the work is spread; none of it changes a bit of the image.
+struct Execution {
+  int threads = 0;              ///< 0: all the machine has
+  Lanes lanes = Lanes::native;  ///< paths side by side in one thread
+};
+
+/// An empty film of the size and with the fixed-point scale that the scene asks for.
+Film make_film(const CompiledScene& scene);
+
+/// Adds `count` samples to every pixel of the film, on all threads. Returns false where `cancel` (may be null) became
+/// true on the way; the film then holds a part of the pass and is good for nothing but clearing. Rethrows what a thread
+/// throws.
+bool render_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution,
+                 const std::atomic<bool>* cancel = nullptr);
+
+/// Number of threads that Execution::threads = 0 stands for.
+int hardware_threads();
+
+}  // namespace glimt

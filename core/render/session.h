@@ -1,0 +1,67 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "film/film.h"
+#include "render/render.h"
+#include "scene/scene.h"
+
+namespace glimt {
+
+/// A finished state of the image. Immutable, so the window may keep and show it for as long as it likes.
+struct Frame {
+  std::uint64_t version = 0;    ///< of the edit it shows, as returned by Session::post
+  Image mean;                   ///< radiance, linear RGB
+  int samples = 0;              ///< per pixel; 0 for the coarse preview that answers an edit of a large image
+  double seconds = 0;           ///< of rendering since the last restart, pauses left out
+  double paths_per_second = 0;  ///< over the same time
+  double relmse_estimate = 0;   ///< infinite below two samples
+  bool finished = false;        ///< the sample target is reached
+};
+
+/// A worker that keeps adding samples while a window edits the scene. All functions may be called from the window's
+/// thread and return at once: none waits for rendering.
+class Session {
+ public:
+  /// `on_frame` is called on the worker's thread after each new frame and must only wake the window.
+  explicit Session(Execution execution = {}, std::function<void()> on_frame = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Shows this scene from now on and returns the version its frames will carry. A change of the sample target alone
+  /// goes on with the samples there are. Throws SceneError for a scene that cannot be rendered and then keeps the last
+  /// one.
+  std::uint64_t post(const Scene& scene);
+  /// Begins again at zero samples.
+  void restart();
+  /// A paused session uses no CPU.
+  void set_paused(bool paused);
+  bool paused() const;
+  /// The newest frame, or null before the first.
+  std::shared_ptr<const Frame> frame() const;
+
+ private:
+  struct Job;
+  void start(std::shared_ptr<const Job> job, bool cancel);
+  void work();
+  bool show_preview(const Job& job);
+  void show(std::shared_ptr<const Frame> frame);
+
+  Execution execution_;
+  std::function<void()> on_frame_;
+  mutable std::mutex mutex_;  ///< held for assignments only, never while rendering, copying pixels or uploading
+  std::condition_variable wake_;
+  std::shared_ptr<const Job> job_;      ///< what to render
+  std::shared_ptr<const Frame> frame_;  ///< what is there to show
+  bool paused_ = false;
+  bool quit_ = false;
+  std::atomic<bool> cancel_{false};  ///< the running pass is of no use any more
+  std::thread worker_;
+};
+
+}  // namespace glimt

@@ -1,0 +1,102 @@
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "scene/lowering.h"
+
+namespace glimt {
+
+using glm::dvec3;
+
+void add_flat_lamp(Lowering& l, const std::vector<dvec3>& v, const dvec3& normal, const Material& material,
+                   int first_surface, int last_surface) {
+  if (material.type != MaterialType::light) return;
+  auto add = [&](LampShape shape, const dvec3& e1, const dvec3& e2) {
+    l.lamps.push_back({shape, v[0], e1, e2, normal, material.radiance, first_surface, last_surface});
+  };
+  if (is_parallelogram(v)) {
+    add(LampShape::parallelogram, v[1] - v[0], v[3] - v[0]);
+  } else {
+    for (std::size_t i = 2; i < v.size(); ++i) add(LampShape::triangle, v[i - 1] - v[0], v[i] - v[0]);
+  }
+}
+
+namespace {
+
+double area_of(const LampPiece& p) {
+  switch (p.shape) {
+    case LampShape::parallelogram:
+      return length(cross(p.e1, p.e2));
+    case LampShape::triangle:
+      return length(cross(p.e1, p.e2)) / 2;
+    case LampShape::sphere:
+      return 4 * std::numbers::pi * p.e1.x * p.e1.x;
+  }
+  return 0;
+}
+
+struct AliasEntry {
+  double threshold;
+  std::size_t other;
+};
+
+/// Vose, "A linear algorithm for generating random numbers with a given distribution" (1991).
+std::vector<AliasEntry> alias_table(const std::vector<double>& probability) {
+  const std::size_t n = probability.size();
+  std::vector<AliasEntry> table(n, {1.0, 0});
+  std::vector<double> scaled(n);
+  std::vector<std::size_t> small, large;
+  for (std::size_t i = 0; i < n; ++i) {
+    scaled[i] = probability[i] * static_cast<double>(n);
+    table[i].other = i;
+    (scaled[i] < 1 ? small : large).push_back(i);
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::size_t low = small.back(), high = large.back();
+    small.pop_back();
+    table[low] = {scaled[low], high};
+    scaled[high] -= 1 - scaled[low];
+    if (scaled[high] < 1) {
+      large.pop_back();
+      small.push_back(high);
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+void lower_lamps(Lowering& l) {
+  std::erase_if(l.lamps, [](const LampPiece& p) { return p.radiance == dvec3{0} || area_of(p) == 0; });
+  std::vector<double> probability;
+  for (const LampPiece& p : l.lamps) probability.push_back(area_of(p) * (p.radiance.r + p.radiance.g + p.radiance.b));
+  const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
+  for (double& p : probability) p /= total;
+  const std::vector<AliasEntry> alias = alias_table(probability);
+
+  Table<LampColumn> table(static_cast<int>(l.lamps.size()));
+  for (std::size_t i = 0; i < l.lamps.size(); ++i) {
+    const LampPiece& p = l.lamps[i];
+    auto set3 = [&](LampColumn first, const dvec3& v) {
+      for (int k = 0; k < 3; ++k)
+        table[static_cast<LampColumn>(static_cast<int>(first) + k)][i] = static_cast<float>(v[k]);
+    };
+    auto set_int = [&](LampColumn c, int value) { table[c][i] = std::bit_cast<float>(value); };
+    set3(LampColumn::p_x, p.p);
+    set3(LampColumn::e1_x, p.e1);
+    set3(LampColumn::e2_x, p.e2);
+    set3(LampColumn::normal_x, p.normal);
+    set_int(LampColumn::shape, static_cast<int>(p.shape));
+    set_int(LampColumn::first_surface, p.first_surface);
+    set_int(LampColumn::last_surface, p.last_surface);
+    set3(LampColumn::weight_r, p.radiance * ((p.shape == LampShape::sphere ? 1 : area_of(p)) / probability[i]));
+    table[LampColumn::alias_threshold][i] = static_cast<float>(alias[i].threshold);
+    set_int(LampColumn::alias_other, static_cast<int>(alias[i].other));
+    l.out.has_lamp_shape[static_cast<std::size_t>(p.shape)] = true;
+  }
+  l.out.lamps = std::move(table);
+}
+
+}  // namespace glimt

@@ -1,0 +1,148 @@
+#include "scene/fields.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace glimt {
+namespace {
+
+constexpr std::array<std::string_view, 2> method_names{"path", "naive"};
+constexpr std::array<std::string_view, 2> roulette_names{"throughput", "constant"};
+constexpr std::array<std::string_view, 2> formula_names{"published", "report"};
+constexpr std::array<std::string_view, 2> fresnel_names{"exact", "schlick"};
+
+template <class T>
+struct MemberOf;
+template <class T, class E>
+struct MemberOf<E T::*> {
+  using Object = T;
+  using Enum = E;
+};
+
+template <auto member>
+constexpr auto choice(std::span<const std::string_view> names) {
+  using Object = typename MemberOf<decltype(member)>::Object;
+  using Enum = typename MemberOf<decltype(member)>::Enum;
+  return Choice<Object>{names, [](const Object& object) { return static_cast<int>(object.*member); },
+                        [](Object& object, int value) { object.*member = static_cast<Enum>(value); }};
+}
+
+constexpr double max_radiance = 1e9;
+
+const std::array<Field<Settings>, 6> settings_table{{
+    {"spp", "samples per pixel to stop at", &Settings::spp, 1, 1 << 24},
+    {"shadow_rays", "shadow rays per diffuse hit", &Settings::shadow_rays, 1, 64},
+    {"seed", "seed of the random numbers", &Settings::seed, 0, 2147483647},
+    {"method", "estimator: path samples the lamps, naive reaches them by chance",
+     choice<&Settings::method>(method_names)},
+    {"roulette", "probability of survival: the path's throughput, or constant 0.75 at diffuse hits",
+     choice<&Settings::roulette>(roulette_names)},
+    {"roulette_depth", "surface hits before roulette by throughput begins", &Settings::roulette_depth, 0, 64},
+}};
+
+const std::array<Field<Camera>, 4> camera_table{{
+    {.key = "eye",
+     .doc = "position, metres",
+     .member = &Camera::eye,
+     .min = -max_coordinate,
+     .max = max_coordinate,
+     .required = true},
+    {.key = "look_at",
+     .doc = "point in the middle of the image, metres",
+     .member = &Camera::look_at,
+     .min = -max_coordinate,
+     .max = max_coordinate,
+     .required = true},
+    {.key = "up",
+     .doc = "direction that is up in the image",
+     .member = &Camera::up,
+     .min = -max_coordinate,
+     .max = max_coordinate},
+    {.key = "fov_y",
+     .doc = "vertical field of view, degrees",
+     .member = &Camera::fov_y,
+     .min = 0.001,
+     .max = 179,
+     .required = true},
+}};
+
+const std::array<Field<ImageSize>, 2> image_table{{
+    {.key = "width", .doc = "width, pixels", .member = &ImageSize::width, .min = 1, .max = 16384, .required = true},
+    {.key = "height", .doc = "height, pixels", .member = &ImageSize::height, .min = 1, .max = 16384, .required = true},
+}};
+
+const std::array<Field<Sphere>, 2> sphere_table{{
+    {.key = "center",
+     .doc = "centre, metres",
+     .member = &Sphere::center,
+     .min = -max_coordinate,
+     .max = max_coordinate,
+     .required = true},
+    {.key = "radius",
+     .doc = "radius, metres",
+     .member = &Sphere::radius,
+     .min = 0,
+     .max = max_coordinate,
+     .min_excluded = true,
+     .required = true},
+}};
+
+const Field<Material> reflectance{.key = "reflectance",
+                                  .doc = "share of the light that is reflected, per channel",
+                                  .member = &Material::reflectance,
+                                  .min = 0,
+                                  .max = 1,
+                                  .required = true};
+const Field<Material> roughness{.key = "roughness",
+                                .doc = "standard deviation of the facets' slope angle, radians",
+                                .member = &Material::roughness,
+                                .min = 0,
+                                .max = std::numbers::pi / 2,
+                                .required = true};
+const Field<Material> formula{.key = "formula",
+                              .doc = "form of the Oren-Nayar model: as published, or as the report prints it",
+                              .member = choice<&Material::formula>(formula_names)};
+const Field<Material> ior{.key = "ior",
+                          .doc = "absolute refractive index",
+                          .member = &Material::ior,
+                          .min = 0,
+                          .max = 10,
+                          .min_excluded = true,
+                          .required = true};
+const Field<Material> fresnel{.key = "fresnel",
+                              .doc = "reflected share: exact, or Schlick's approximation",
+                              .member = choice<&Material::fresnel>(fresnel_names)};
+const Field<Material> radiance{.key = "radiance",
+                               .doc = "emitted from the front side, W/(m^2 sr)",
+                               .member = &Material::radiance,
+                               .min = 0,
+                               .max = max_radiance,
+                               .required = true};
+const Field<Material> emission{.key = "emission",
+                               .doc = "glow, not sampled as a lamp, W/(m^2 sr)",
+                               .member = &Material::emission,
+                               .min = 0,
+                               .max = max_radiance};
+
+const std::array<MaterialInfo, 5> material_table{{
+    {MaterialType::lambertian, "lambertian", "matt, equally bright from everywhere", {reflectance, emission}},
+    {MaterialType::oren_nayar, "oren-nayar", "rough and matt, like clay", {reflectance, roughness, formula, emission}},
+    {MaterialType::mirror, "mirror", "perfect mirror", {reflectance}},
+    {MaterialType::glass, "glass", "smooth and clear, for closed shapes", {ior, fresnel}},
+    {MaterialType::light, "light", "lamp that reflects nothing", {radiance}},
+}};
+
+}  // namespace
+
+std::span<const Field<Settings>> settings_fields() { return settings_table; }
+std::span<const MaterialInfo> material_infos() { return material_table; }
+std::span<const Field<Camera>> camera_fields() { return camera_table; }
+std::span<const Field<ImageSize>> image_fields() { return image_table; }
+std::span<const Field<Sphere>> sphere_fields() { return sphere_table; }
+
+const MaterialInfo& material_info(MaterialType type) {
+  return *std::ranges::find(material_table, type, &MaterialInfo::type);
+}
+
+}  // namespace glimt

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "scene/scene.h"
+
+namespace glimt {
+
+std::vector<glm::dvec3> triangle_vertices(const Mesh& mesh, const std::array<int, 3>& triangle);
+
+/// Cubic metres; positive where the triangles' fronts look outwards. The mesh is closed.
+double signed_volume(const Mesh& mesh);
+
+/// How often a closed mesh wraps around the point: 1 or -1 inside, by its orientation, 0 outside. The sum of the
+/// triangles' signed solid angles over 4 pi (Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983,
+/// eq. 8).
+double winding_number(const Mesh& mesh, const glm::dvec3& point);
+
+}  // namespace glimt

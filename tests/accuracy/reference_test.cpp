@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "film/image_file.h"
+#include "pictures.h"
+#include "scene/scene_file.h"
+
+using namespace glimt;
+
+// Against Mitsuba 3's pictures of the same scenes; what the files hold is said in tests/data/README.md.
+namespace {
+
+constexpr double alpha = 1e-4;  ///< of a false alarm, for each scene
+constexpr int block_size = 8;
+
+struct ReferencePicture {
+  std::vector<double> blocks;  ///< of 8x8 pixels, three channels each
+  double mean = 0;
+  double mean_error = 0;  ///< standard error of the mean over pixels and channels
+  int samples = 0;        ///< per pixel
+};
+
+ReferencePicture read_reference(const std::string& name) {
+  const std::string base = GLIMT_TESTS_DIR "/data/" + name;
+  const Image image = read_image(base + ".pfm");
+  const auto facts = nlohmann::json::parse(std::ifstream(base + ".json"));
+  ReferencePicture r{{image.rgb.begin(), image.rgb.end()}, facts.at("mean"), 0, facts.at("spp")};
+  // Its pixels' errors are independent; channels of one pixel are not, so they count as one.
+  r.mean_error =
+      facts.at("rmse_of_reference").get<double>() / (block_size * std::sqrt(static_cast<double>(r.blocks.size()) / 3));
+  return r;
+}
+
+class Mitsuba : public testing::TestWithParam<std::string> {};
+
+// Overall mean to 0.2 %, both errors included at three standard errors; every block by t-tests. The reference is a path
+// tracer's with independent samples, as ours, so its variance in a block is taken to be ours per sample, over its
+// samples. A caustic path may be so rare that a block has none in all our pictures and its variance is seen too small;
+// its neighbours tell, so the mean variance of the 5x5 blocks around holds where it is larger.
+TEST_P(Mitsuba, PictureIsTheSame) {
+  const ReferencePicture reference = read_reference(GetParam());
+  const Scene scene = read_scene(GLIMT_SCENES "/" + GetParam() + ".toml");
+  constexpr int seeds = 16, samples = 2 * effort;
+  const Series ours = render_series(scene, seeds, samples, block_size);
+  ASSERT_EQ(ours.size(), reference.blocks.size());
+
+  const Estimate mean = ours.overall();
+  const double error = std::hypot(mean.error, reference.mean_error);
+  EXPECT_TRUE(effort == 1 || 3 * error < 0.001 * reference.mean) << "too few samples to say anything";
+  EXPECT_LT(std::abs(mean.mean - reference.mean), effort > 1 ? 0.002 * reference.mean - 3 * error : 4 * error)
+      << mean.mean << " +- " << mean.error << ", reference " << reference.mean << " +- " << reference.mean_error;
+
+  const double level = sidak(alpha, static_cast<double>(ours.size()));
+  const double both = std::sqrt(1 + static_cast<double>(seeds * samples) / reference.samples);
+  const std::size_t columns = static_cast<std::size_t>(scene.image.width / block_size),
+                    rows = ours.size() / 3 / columns;
+  std::vector<Estimate> blocks;
+  for (std::size_t i = 0; i < ours.size(); ++i) blocks.push_back(ours.block(i));
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const std::size_t k = i / 3, row = k / columns, column = k % columns;
+    double variance = 0, count = 0;
+    for (std::size_t y = row - std::min<std::size_t>(row, 2); y < std::min(row + 3, rows); ++y)
+      for (std::size_t x = column - std::min<std::size_t>(column, 2); x < std::min(column + 3, columns); ++x, ++count)
+        variance += std::pow(blocks[3 * (y * columns + x) + i % 3].error, 2);
+    Estimate block = blocks[i];
+    block.error = both * std::max(block.error, std::sqrt(variance / count));
+    EXPECT_GT(likelihood(block, reference.blocks[i]), level)
+        << "block (" << column << ", " << row << "), channel " << i % 3 << ": " << block.mean << " +- " << block.error
+        << ", reference " << reference.blocks[i];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Mitsuba, testing::Values("cornell", "hexagon", "hexagon_diffuse", "hexagon_empty"),
+                         [](const auto& scene) { return scene.param; });
+
+}  // namespace

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <GL/gl.h>
+#include <GL/osmesa.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <array>
+#include <cfloat>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "viewer/controller.h"
+#include "viewer/screen.h"
+
+/// The window's contents drawn into memory, with a mouse that a test moves.
+namespace glimt::testing {
+
+class Offscreen {
+ public:
+  /// `width` and `height` in window coordinates, `ratio` framebuffer pixels for each.
+  Offscreen(Scene scene, int width, int height, float scale = 1, int ratio = 1)
+      : width_(width), height_(height), ratio_(ratio), scale_(scale), pixels_(4UL * ratio * width * ratio * height) {
+    context_ = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
+    if (context_ == nullptr ||
+        !OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, ratio * width, ratio * height)) {
+      throw std::runtime_error("OSMesa gives no OpenGL context");
+    }
+    OSMesaPixelStore(OSMESA_Y_UP, 0);
+    controller_ = std::make_unique<Controller>(
+        std::move(scene), "picture", [] {}, Execution{.threads = 2});
+    screen_ = std::make_unique<Screen>();
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+    io.DisplayFramebufferScale = {static_cast<float>(ratio), static_cast<float>(ratio)};
+    io.DeltaTime = 1.0F / 60;
+  }
+  ~Offscreen() {
+    screen_.reset();
+    controller_.reset();
+    OSMesaDestroyContext(context_);
+  }
+  Offscreen(const Offscreen&) = delete;
+  Offscreen& operator=(const Offscreen&) = delete;
+
+  Controller& controller() { return *controller_; }
+  const ViewerState& state() const { return controller_->state(); }
+  const WidgetRects& widgets() const { return screen_->widgets(); }
+  Rect widget(const std::string& name) const {
+    const auto found = widgets().find(name);
+    if (found == widgets().end()) throw std::runtime_error("no control called " + name);
+    return found->second;
+  }
+
+  /// Pictures as the window's loop draws them; several, so that menus and hovering settle.
+  void draw(int pictures = 3) {
+    for (int i = 0; i < pictures; ++i) {
+      controller_->poll();
+      Edits edits;
+      screen_->draw(controller_->state(), scale_, edits);
+      controller_->apply(edits);
+    }
+    glFinish();
+  }
+
+  /// Draws until the condition holds; false where it does not within a minute.
+  bool draw_until(const std::function<bool()>& condition) {
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (std::chrono::steady_clock::now() < give_up) {
+      draw(1);
+      if (condition()) {
+        draw();
+        return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+  /// Draws until the newest scene is on the screen with all its samples.
+  bool draw_until_finished() {
+    return draw_until(
+        [&] { return state().frame && state().frame->finished && state().frame->version >= state().version; });
+  }
+
+  /// Moves the mouse to a share of the control's width, presses, and lets go.
+  void press(const std::string& name, float share = 0.5F) {
+    const Rect r = widget(name);
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {r.x + share * r.width, r.y + r.height / 2};
+    draw(2);
+    io.MouseDown[0] = true;
+    draw(2);
+    release();
+  }
+  /// Presses in the middle of the control, drags to a share of its width, and lets go.
+  void drag(const std::string& name, float share) {
+    const Rect r = widget(name);
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = {r.x + r.width / 2, r.y + r.height / 2};
+    draw(2);
+    io.MouseDown[0] = true;
+    draw(2);
+    io.MousePos.x = r.x + share * r.width;
+    draw(2);
+    release();
+  }
+
+  /// Red, green and blue at a framebuffer pixel, from the top left.
+  std::array<int, 3> pixel(int x, int y) const {
+    const std::uint8_t* p = pixels_.data() + 4UL * (static_cast<std::size_t>(y) * width_ * ratio_ + x);
+    return {p[0], p[1], p[2]};
+  }
+
+ private:
+  /// Lets go, and takes the mouse away, with it the tooltip that may stand over the picture.
+  void release() {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MouseDown[0] = false;
+    draw(2);
+    io.MousePos = {-FLT_MAX, -FLT_MAX};
+    draw();
+  }
+
+  int width_, height_, ratio_;
+  float scale_;
+  std::vector<std::uint8_t> pixels_;
+  OSMesaContext context_ = nullptr;
+  std::unique_ptr<Controller> controller_;
+  std::unique_ptr<Screen> screen_;
+};
+
+}  // namespace glimt::testing

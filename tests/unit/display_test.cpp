@@ -1,0 +1,81 @@
+#include "film/display.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+using namespace glimt;
+
+namespace {
+
+// IEC 61966-2-1, from linear to encoded.
+double srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+
+int exact_code(double linear) { return static_cast<int>(std::floor(255 * srgb(linear) + 0.5)); }
+
+std::uint8_t code_of(float linear, double exposure = 0) {
+  return to_srgb8({1, 1, {linear, linear, linear}}, {exposure})[0];
+}
+
+TEST(Display, RoundsTheExactCurveToNearest) {
+  Image image{0, 1, {}};
+  for (std::uint32_t bits = 0; bits < std::bit_cast<std::uint32_t>(1.0f); bits += 211)
+    image.rgb.push_back(std::bit_cast<float>(bits));
+  image.rgb.resize(image.rgb.size() / 3 * 3);
+  image.width = static_cast<int>(image.rgb.size() / 3);
+  const auto codes = to_srgb8(image, {});
+  ASSERT_EQ(codes.size(), image.rgb.size());
+  int wrong = 0;
+  for (std::size_t i = 0; i < codes.size() && wrong < 10; ++i)
+    if (codes[i] != exact_code(image.rgb[i])) {
+      ++wrong;
+      ADD_FAILURE() << image.rgb[i] << " gives " << int{codes[i]} << " and not " << exact_code(image.rgb[i]);
+    }
+}
+
+TEST(Display, StepsUpWhereTheCurveDoes) {
+  for (int code = 1; code < 256; ++code) {
+    const double encoded = (code - 0.5) / 255;
+    const double step = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+    EXPECT_EQ(code_of(static_cast<float>(step * (1 - 1e-6))), code - 1);
+    EXPECT_EQ(code_of(static_cast<float>(step * (1 + 1e-6))), code);
+  }
+}
+
+TEST(Display, KnownValues) {
+  EXPECT_EQ(code_of(0), 0);
+  EXPECT_EQ(code_of(0.18f), 118);  // 1.055 * 0.18^(1/2.4) - 0.055 = 0.4614, times 255 is 117.6
+  EXPECT_EQ(code_of(0.5f), 188);   // 0.7354 * 255 = 187.5
+  EXPECT_EQ(code_of(1), 255);
+}
+
+TEST(Display, ClipsAndShowsInvalidValuesBlack) {
+  EXPECT_EQ(code_of(1.0001f), 255);
+  EXPECT_EQ(code_of(1e30f), 255);
+  EXPECT_EQ(code_of(std::numeric_limits<float>::infinity()), 255);
+  EXPECT_EQ(code_of(-1), 0);
+  EXPECT_EQ(code_of(-std::numeric_limits<float>::infinity()), 0);
+  EXPECT_EQ(code_of(std::numeric_limits<float>::quiet_NaN()), 0);
+}
+
+TEST(Display, ExposureIsInStops) {
+  EXPECT_EQ(code_of(0.125f, 2), code_of(0.5f));
+  EXPECT_EQ(code_of(4, -3), code_of(0.5f));
+  EXPECT_EQ(code_of(0.1f, 0.5), exact_code(0.1 * std::sqrt(2.0)));
+}
+
+TEST(Display, KeepsTheOrderOfPixelsAndChannels) {
+  const Image image{2, 2, {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}};
+  EXPECT_EQ(to_srgb8(image, {}), (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}));
+}
+
+TEST(Display, LargeImagesAreDoneAlike) {
+  Image image{1200, 1000, std::vector<float>(3'600'000)};
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<float>(i % 1009) / 1009;
+  const auto codes = to_srgb8(image, {});
+  for (std::size_t i = 0; i < 1009; ++i) ASSERT_EQ(codes[1009 * 3500 + i], codes[i]);
+}
+
+}  // namespace
