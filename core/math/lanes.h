@@ -112,6 +112,11 @@ xsimd::batch<std::uint32_t, A> select(xsimd::batch_bool<float, A> m, xsimd::batc
 
 template <class A>
 xsimd::batch<float, A> fma(xsimd::batch<float, A> a, xsimd::batch<float, A> b, xsimd::batch<float, A> c) {
+#ifdef __AVX512F__
+  // xsimd 8.1 has no fused product for these registers.
+  if constexpr (std::is_same_v<typename xsimd::batch<float, A>::register_type, __m512>)
+    return xsimd::batch<float, A>(_mm512_fmadd_ps(a.data, b.data, c.data));
+#endif
   return xsimd::fma(a, b, c);
 }
 template <class A>
