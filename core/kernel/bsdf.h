@@ -23,13 +23,13 @@ template <class F>
 F oren_nayar_factor(const OrenNayar<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
   const F s = max(dot(wi, wo) - cos_i * cos_o, F(0.0f));
   const F larger_cos = max(max(cos_i, cos_o), F(1e-6f));
-  return fma(m.b, select(m.report, s, s / larger_cos), m.a);
+  return fma(m.b, select(m.report, s, s * reciprocal(larger_cos)), m.a);
 }
 
-/// Where `direction`, moving towards the surface, goes on after a mirror.
+/// Where `direction`, moving towards the surface at that cosine to its normal, goes on after a mirror.
 template <class F>
-Vec3<F> reflect(const Vec3<F>& direction, const Vec3<F>& normal) {
-  return fma(normal, F(-2.0f) * dot(direction, normal), direction);
+Vec3<F> reflect(const Vec3<F>& direction, const Vec3<F>& normal, F cos_i) {
+  return fma(normal, cos_i + cos_i, direction);
 }
 
 /// A smooth surface between two dielectrics, for unpolarised light.
@@ -42,14 +42,14 @@ struct Dielectric {
 /// `cos_i` > 0 to the normal, `eta` = index on the other side over index on this side. Fresnel's equations, or
 /// Schlick's approximation (1994), which takes the angle on the thinner side.
 template <class F>
-Dielectric<F> fresnel(F cos_i, F eta, const Mask<F>& schlick) {
-  const F sin2_t = max(fma(F(0.0f) - cos_i, cos_i, F(1.0f)), F(0.0f)) / (eta * eta);
+Dielectric<F> fresnel(F cos_i, F eta, F inverse_eta, const Mask<F>& schlick) {
+  const F sin2_t = max(fnma(cos_i, cos_i, F(1.0f)), F(0.0f)) * (inverse_eta * inverse_eta);
   const Mask<F> total = sin2_t >= F(1.0f);
-  const F cos_t = sqrt(max(F(1.0f) - sin2_t, F(0.0f)));
-  const F perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-  const F parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const F cos_t = sqrt(F(1.0f) - sin2_t);
+  const F perpendicular = (cos_i - eta * cos_t) * reciprocal(cos_i + eta * cos_t);
+  const F parallel = (eta * cos_i - cos_t) * reciprocal(eta * cos_i + cos_t);
   const F exact = F(0.5f) * fma(perpendicular, perpendicular, parallel * parallel);
-  const F root = (F(1.0f) - eta) / (F(1.0f) + eta);
+  const F root = (F(1.0f) - eta) * reciprocal(F(1.0f) + eta);
   const F r0 = root * root;
   const F m = F(1.0f) - select(eta < F(1.0f), cos_t, cos_i);
   const F m2 = m * m;
@@ -59,8 +59,7 @@ Dielectric<F> fresnel(F cos_i, F eta, const Mask<F>& schlick) {
 
 /// Snell's law: where `direction`, moving against the normal, goes on behind the surface.
 template <class F>
-Vec3<F> refract(const Vec3<F>& direction, const Vec3<F>& normal, F cos_i, F cos_t, F eta) {
-  const F inverse_eta = F(1.0f) / eta;
+Vec3<F> refract(const Vec3<F>& direction, const Vec3<F>& normal, F cos_i, F cos_t, F inverse_eta) {
   return fma(normal, cos_i * inverse_eta - cos_t, direction * inverse_eta);
 }
 

@@ -20,7 +20,7 @@ struct PathQueue {
   using Array = std::array<T, capacity + lane_count<F>>;
 
   Array<float> direction_x, direction_y, direction_z;
-  Array<std::uint32_t> key_a, key_b;
+  Array<std::uint32_t> key_a, key_b;  ///< past the camera's dimensions
   Array<std::int32_t> path;  ///< number of the path in its block; -1 where there is none
   int next = capacity;       ///< first place not taken yet
 };
@@ -40,7 +40,7 @@ template <class F>
 class CameraRays final : public PathSource<F> {
  public:
   CameraRays(const CompiledScene& scene, const PathBlock& block)
-      : scene_(scene), block_(block), x_(block.x0), y_(block.y0), sample_(block.first_sample) {}
+      : scene_(scene), block_(block), x_(block.x0), y_(block.y0), sample_(static_cast<std::int32_t>(block.first_sample)) {}
 
   Vec3<F> origin() const override { return vec(scene_.camera.eye); }
   bool exhausted() const override { return next_path_ >= block_.paths(); }
@@ -60,23 +60,28 @@ class CameraRays final : public PathSource<F> {
   static Vec3<F> vec(const std::array<float, 3>& v) { return {F(v[0]), F(v[1]), F(v[2])}; }
 
   void generate(PathQueue<F>& q, int place) {
-    std::array<std::int32_t, lane_count<F>> px, py;
-    std::array<std::uint32_t, lane_count<F>> pixel, sample;
-    for (std::size_t lane = 0; lane < lane_count<F>; ++lane) {
-      px[lane] = x_;
-      py[lane] = y_;
-      pixel[lane] = static_cast<std::uint32_t>(y_ * scene_.width + x_);
-      sample[lane] = sample_;
-      q.path[static_cast<std::size_t>(place) + lane] = exhausted() ? -1 : next_path_;
-      advance();
-    }
+    using I = Int<F>;
     using U = Uint<F>;
-    const PathKey<F> key =
-        path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), load<U>(pixel.data()), load<U>(sample.data()));
-    const F x = to_float(load<Int<F>>(px.data())) + uniform<F>(key, U(static_cast<std::uint32_t>(Dimension::pixel_x)));
-    const F y = to_float(load<Int<F>>(py.data())) + uniform<F>(key, U(static_cast<std::uint32_t>(Dimension::pixel_y)));
+    const I lane = lane_numbers<F>();
+    I px = I(x_) + lane, py = I(y_), sample = I(sample_);
+    const int x_end = block_.x0 + block_.width, y_end = block_.y0 + block_.height;
+    for (Mask<F> beyond = !less(px, I(x_end)); any(beyond); beyond = !less(px, I(x_end))) {
+      px = select(beyond, px - I(block_.width), px);
+      py = select(beyond, py + I(1), py);
+      const Mask<F> below = !less(py, I(y_end));
+      py = select(below, I(block_.y0), py);
+      sample = select(below, sample + I(1), sample);
+    }
+    const I path = I(next_path_) + lane;
+    store(select(less(path, I(block_.paths())), path, I(-1)), q.path.data() + place);
+    advance();
+    const U pixel = as_uint(py * I(scene_.width) + px);
+    PathKey<F> key = path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), pixel, as_uint(sample));
+    const F x = to_float(px) + uniform<F>(key, static_cast<std::uint32_t>(Dimension::pixel_x));
+    const F y = to_float(py) + uniform<F>(key, static_cast<std::uint32_t>(Dimension::pixel_y));
     const Vec3<F> direction =
         normalize(fma(vec(scene_.camera.right), x, fma(vec(scene_.camera.down), y, vec(scene_.camera.corner))));
+    key = skip_dimensions<F>(key, static_cast<std::uint32_t>(Dimension::camera_count));
     store(direction.x, q.direction_x.data() + place);
     store(direction.y, q.direction_y.data() + place);
     store(direction.z, q.direction_z.data() + place);
@@ -85,18 +90,18 @@ class CameraRays final : public PathSource<F> {
   }
 
   void advance() {
-    ++next_path_;
-    if (++x_ < block_.x0 + block_.width) return;
-    x_ = block_.x0;
-    if (++y_ < block_.y0 + block_.height) return;
-    y_ = block_.y0;
-    ++sample_;
+    next_path_ += lane_count<F>;
+    for (x_ += lane_count<F>; x_ >= block_.x0 + block_.width; x_ -= block_.width)
+      if (++y_ >= block_.y0 + block_.height) {
+        y_ = block_.y0;
+        ++sample_;
+      }
   }
 
   const CompiledScene& scene_;
   const PathBlock& block_;
   int x_, y_;
-  std::uint32_t sample_;
+  std::int32_t sample_;
   int next_path_ = 0;
 };
 
@@ -113,8 +118,9 @@ class GivenRay final : public PathSource<F> {
   bool exhausted() const override { return used_; }
 
   void refill(PathQueue<F>& q) override {
-    const PathKey<F> key =
-        path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), Uint<F>(path_.pixel), Uint<F>(path_.sample));
+    const PathKey<F> key = skip_dimensions<F>(
+        path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), Uint<F>(path_.pixel), Uint<F>(path_.sample)),
+        static_cast<std::uint32_t>(Dimension::camera_count));
     store(F(static_cast<float>(path_.direction[0])), q.direction_x.data());
     store(F(static_cast<float>(path_.direction[1])), q.direction_y.data());
     store(F(static_cast<float>(path_.direction[2])), q.direction_z.data());

@@ -53,33 +53,36 @@ template <class F>
 struct SphereRoots {
   F middle;  ///< t of the point nearest to the centre
   F square;  ///< of half the chord; negative where the line misses
-  Vec3<F> from_centre;
+  Vec3<F> to_centre;
 };
 
 template <class F>
 SphereRoots<F> sphere_roots(const SphereShape& s, const Ray<F>& ray) {
-  const Vec3<F> f = ray.origin - broadcast<F>(s.cx, s.cy, s.cz);
-  const F middle = F(0.0f) - dot(f, ray.direction);
-  const Vec3<F> nearest = fma(ray.direction, middle, f);
-  return {middle, fma(F(s.r), F(s.r), F(0.0f) - dot(nearest, nearest)), f};
+  const Vec3<F> to_centre = broadcast<F>(s.cx, s.cy, s.cz) - ray.origin;
+  const F middle = dot(to_centre, ray.direction);
+  const Vec3<F> miss = fnma(ray.direction, middle, to_centre);
+  const F square = fnma(miss.x, miss.x, fnma(miss.y, miss.y, fnma(miss.z, miss.z, F(s.r2))));
+  return {middle, square, to_centre};
 }
 
-/// t where a ray from inside leaves a slab; positive or 0 also where rounding has put the origin a little outside.
+/// t where a ray from inside leaves a slab; a little below 0 where rounding has put the origin outside.
 template <class F>
 F slab_exit(const Slab& slab, const Ray<F>& ray, Mask<F>& towards_hi) {
   const Vec3<F> n = broadcast<F>(slab.nx, slab.ny, slab.nz);
   const F approach = dot(n, ray.direction);
   towards_hi = approach > F(0.0f);
-  return abs((select(towards_hi, F(slab.hi), F(slab.lo)) - dot(n, ray.origin)) / approach);
+  const F inverse = reciprocal(approach);
+  const F from_middle = fma(n.x, ray.origin.x, fma(n.y, ray.origin.y, fma(n.z, ray.origin.z, F(-slab.middle))));
+  return fnma(inverse, from_middle, abs(inverse) * F(slab.half));
 }
 
 /// Roots on a glass sphere: the first at which the ray crosses the surface, not counting the point where it starts.
 template <class F>
 F glass_sphere_t(const SphereShape& s, const Ray<F>& ray, Mask<F>& valid) {
   const SphereRoots<F> roots = sphere_roots(s, ray);
-  const F half_chord = sqrt(max(roots.square, F(0.0f)));
+  const F half_chord = sqrt(roots.square);
   const Mask<F> starts_on = equal(ray.from, Int<F>(s.surface));
-  const Mask<F> inside = dot(roots.from_centre, roots.from_centre) < F(s.r) * F(s.r);
+  const Mask<F> inside = dot(roots.to_centre, roots.to_centre) < F(s.r2);
   const F t = select(inside, roots.middle + half_chord, roots.middle - half_chord);
   // A chord from the surface: its start is the root 0, so the other is twice the middle.
   valid = (starts_on | (roots.square >= F(0.0f)));
@@ -101,7 +104,7 @@ SolidSpan<F> solid_span(const CompiledScene& scene, const Solid& solid, const Ra
     const SolidPlane& plane = scene.solid_planes[static_cast<std::size_t>(i)];
     const Vec3<F> n = broadcast<F>(plane.nx, plane.ny, plane.nz);
     const F approach = dot(n, ray.direction);
-    const F t = (F(plane.d) - dot(n, ray.origin)) / approach;
+    const F t = (F(plane.d) - dot(n, ray.origin)) * reciprocal(approach);
     const Mask<F> enters = approach < F(0.0f);
     const Mask<F> later = enters & (t > span.near_t);
     const Mask<F> sooner = (t < span.far_t) & !enters;
@@ -130,7 +133,7 @@ Mask<F> starts_inside(const CompiledScene& scene, const Solid& solid, const Ray<
 template <class F>
 F polygon_t(const CompiledScene& scene, const PolygonShape& polygon, const Ray<F>& ray, Mask<F>& inside) {
   const Vec3<F> n = broadcast<F>(polygon.nx, polygon.ny, polygon.nz);
-  const F t = (F(polygon.d) - dot(n, ray.origin)) / dot(n, ray.direction);
+  const F t = (F(polygon.d) - dot(n, ray.origin)) * reciprocal(dot(n, ray.direction));
   const Vec3<F> p = fma(ray.direction, t, ray.origin);
   inside = (t >= F(0.0f)) & !equal(ray.from, Int<F>(polygon.surface));
   for (int i = polygon.first_bound; i < polygon.last_bound; ++i) {
@@ -147,7 +150,7 @@ F triangle_t(const TriangleShape& triangle, const Ray<F>& ray, Mask<F>& inside) 
   const Vec3<F> e1 = broadcast<F>(triangle.e1[0], triangle.e1[1], triangle.e1[2]);
   const Vec3<F> e2 = broadcast<F>(triangle.e2[0], triangle.e2[1], triangle.e2[2]);
   const Vec3<F> p = cross(ray.direction, e2);
-  const F inverse = F(1.0f) / dot(e1, p);
+  const F inverse = reciprocal(dot(e1, p));
   const Vec3<F> s = ray.origin - broadcast<F>(triangle.v[0], triangle.v[1], triangle.v[2]);
   const F u = dot(s, p) * inverse;
   const Vec3<F> q = cross(s, e1);
@@ -195,9 +198,9 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
   }
   for (const SphereShape& sphere : scene.spheres) {
     const SphereRoots<F> roots = sphere_roots(sphere, ray);
-    const F t = roots.middle - sqrt(max(roots.square, F(0.0f)));
+    const F t = roots.middle - positive_sqrt(roots.square);
     // Moving towards the centre, so t is negative only where rounding has put the origin inside: then the hit is here.
-    take(hit, (roots.middle > F(0.0f)) & (roots.square >= F(0.0f)) & (t < hit.t), max(t, F(0.0f)), sphere.surface);
+    take(hit, (roots.middle > F(0.0f)) & (t < hit.t), t, sphere.surface);
   }
   for (const SphereShape& sphere : scene.glass_spheres) {
     Mask<F> valid;
@@ -212,7 +215,7 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
   }
   for (const SphereShape& sphere : scene.shells) {
     const SphereRoots<F> roots = sphere_roots(sphere, ray);
-    const F t = max(roots.middle + sqrt(max(roots.square, F(0.0f))), F(0.0f));
+    const F t = max(roots.middle + sqrt(roots.square), F(0.0f));
     take(hit, t < hit.t, t, sphere.surface);
   }
   return hit;
@@ -251,9 +254,8 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
   for (const SphereShape& sphere : scene.spheres) {
     if (sphere.surface == only) continue;
     const SphereRoots<F> roots = sphere_roots(sphere, ray);
-    const F beyond = roots.middle - distance;  // middle - half chord < distance, without the root
-    const Mask<F> before = (beyond < F(0.0f)) | (beyond * beyond < roots.square);
-    hide((roots.middle > F(0.0f)) & (roots.square > F(0.0f)) & before, sphere.surface);
+    const F beyond = max(roots.middle - distance, F(0.0f));  // middle - half chord < distance, without the root
+    hide((roots.middle > F(0.0f)) & (beyond * beyond < roots.square), sphere.surface);
   }
   for (const SphereShape& sphere : scene.glass_spheres) {
     Mask<F> valid;
@@ -275,7 +277,7 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
   }
   for (const SphereShape& sphere : scene.shells) {
     const SphereRoots<F> roots = sphere_roots(sphere, ray);
-    hidden = hidden | (roots.middle + sqrt(max(roots.square, F(0.0f))) < distance * F(1 - 0x1p-16f));
+    hidden = hidden | (roots.middle + sqrt(roots.square) < distance * F(1 - 0x1p-16f));
   }
   return hidden;
 }

@@ -13,7 +13,8 @@ template <class F>
 struct LampSample {
   Vec3<F> direction;          ///< unit, from the shaded point
   F distance;                 ///< metres
-  Vec3<F> radiance_over_pdf;  ///< radiance over pdf_w, the choice of the lamp counted in; 0 where its back is seen
+  Vec3<F> weight;             ///< times `inverse_pdf`: radiance over pdf_w, the choice of the lamp counted in
+  F inverse_pdf;              ///< 0 where the lamp shows its back
   Int<F> first_surface, last_surface;  ///< the lamp's own, which cannot hide it
 };
 
@@ -65,12 +66,11 @@ LampSample<F> sample_flat_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from,
       fma(lamp.vector(LampColumn::e1_x), a, fma(lamp.vector(LampColumn::e2_x), b, lamp.vector(LampColumn::p_x)));
   const Vec3<F> way = p - from;
   const F distance2 = dot(way, way);
-  const F distance = sqrt(distance2);
-  const F inverse = F(1.0f) / distance;
+  const F inverse = inverse_sqrt(distance2);
   const Vec3<F> direction = way * inverse;
-  const F cos_lamp = F(0.0f) - dot(direction, lamp.vector(LampColumn::normal_x));
-  const F inverse_pdf = select(cos_lamp > F(0.0f), cos_lamp * inverse * inverse, F(0.0f));
-  return {direction, distance, lamp.vector(LampColumn::weight_r) * inverse_pdf, Int<F>(0), Int<F>(0)};
+  const F minus_cos_lamp = dot(direction, lamp.vector(LampColumn::normal_x));
+  const F inverse_pdf = max(F(0.0f) - minus_cos_lamp, F(0.0f)) * (inverse * inverse);
+  return {direction, distance2 * inverse, lamp.vector(LampColumn::weight_r), inverse_pdf, Int<F>(0), Int<F>(0)};
 }
 
 /// A direction in the cone in which a sphere is seen, uniform by solid angle: pdf_w = 1 / (2 pi (1 - cos(theta_max))).
@@ -79,27 +79,29 @@ LampSample<F> sample_sphere_lamp(const LampRow<F, one>& lamp, const Vec3<F>& fro
   const Vec3<F> to_centre = lamp.vector(LampColumn::p_x) - from;
   const F radius = lamp[LampColumn::e1_x];
   const F d2 = dot(to_centre, to_centre);
-  const F d = sqrt(d2);
-  const Vec3<F> axis = to_centre * (F(1.0f) / d);
-  const F sin2_max = min(radius * radius / d2, F(1.0f));
+  const F inverse_d = inverse_sqrt(d2);
+  const F d = d2 * inverse_d;
+  const Vec3<F> axis = to_centre * inverse_d;
+  const F sin_max = radius * inverse_d;
+  const F sin2_max = min(sin_max * sin_max, F(1.0f));
   // 1 - cos without cancellation for small lamps.
-  const F one_minus_cos_max = sin2_max / (F(1.0f) + sqrt(F(1.0f) - sin2_max));
+  const F one_minus_cos_max = sin2_max * reciprocal(F(1.0f) + sqrt(F(1.0f) - sin2_max));
   const F one_minus_cos = u * one_minus_cos_max;
   const F cos = F(1.0f) - one_minus_cos;
   const F sin2 = one_minus_cos * (F(1.0f) + cos);
   const F sin = sqrt(sin2);
   // A frame about the axis (Duff et al., "Building an orthonormal basis, revisited", JCGT 2017).
   const F sign = select(axis.z < F(0.0f), F(-1.0f), F(1.0f));
-  const F k = F(-1.0f) / (sign + axis.z);
+  const F k = F(-1.0f) * reciprocal(sign + axis.z);
   const F xy = axis.x * axis.y * k;
   const Vec3<F> t1{fma(sign * axis.x, axis.x * k, F(1.0f)), sign * xy, F(0.0f) - sign * axis.x};
   const Vec3<F> t2{xy, fma(axis.y, axis.y * k, sign), F(0.0f) - axis.y};
   const SinCos<F> turn = sincos_turns(v);
   const Vec3<F> direction = fma(t1, sin * turn.cos, fma(t2, sin * turn.sin, axis * cos));
-  const F half_chord = sqrt(max(radius * radius - d2 * sin2, F(0.0f)));
+  const F half_chord = sqrt(radius * radius - d2 * sin2);
   const F inverse_pdf = select(d > radius, F(2.0f * std::numbers::pi_v<float>) * one_minus_cos_max, F(0.0f));
-  return {direction, max(fma(d, cos, F(0.0f) - half_chord), F(0.0f)), lamp.vector(LampColumn::weight_r) * inverse_pdf,
-          Int<F>(0), Int<F>(0)};
+  const F distance = max(fma(d, cos, F(0.0f) - half_chord), F(0.0f));
+  return {direction, distance, lamp.vector(LampColumn::weight_r), inverse_pdf, Int<F>(0), Int<F>(0)};
 }
 
 /// The table's row decides how the lamp is sampled.
@@ -114,7 +116,7 @@ LampSample<F> sample_row(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, 
     const Mask<F> sphere = equal(as_int(lamp[LampColumn::shape]), Int<F>(static_cast<int>(LampShape::sphere)));
     sample.direction = select(sphere, on_sphere.direction, sample.direction);
     sample.distance = select(sphere, on_sphere.distance, sample.distance);
-    sample.radiance_over_pdf = select(sphere, on_sphere.radiance_over_pdf, sample.radiance_over_pdf);
+    sample.inverse_pdf = select(sphere, on_sphere.inverse_pdf, sample.inverse_pdf);
   }
   sample.first_surface = as_int(lamp[LampColumn::first_surface]);
   sample.last_surface = as_int(lamp[LampColumn::last_surface]);

@@ -19,9 +19,9 @@ struct PathState {
   Vec3<F> radiance;    ///< gathered so far, W/(m^2 sr)
   F ior2;              ///< square of the refractive index here over that at the camera; 1 without glass
   Mask<F> sees_lamps;  ///< the last surface was specular (or the camera): a lamp that is hit counts
-  PathKey<F> key;
-  Int<F> dimension;  ///< first of the next hit's block; counts the hits too
-  Int<F> path;       ///< number in the block, or -1 for a lane without work
+  PathKey<F> key;      ///< its dimension 0 is the first of the next hit
+  Int<F> depth;        ///< surfaces hit before
+  Int<F> path;         ///< number in the block, or -1 for a lane without work
 };
 
 /// What a hit point looks like.
@@ -48,9 +48,7 @@ class PathTracer {
         surfaces_(scene.surfaces[Column{}]),
         rgb_(rgb),
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
-        roulette_begin_(camera_dimensions + hit_block_ * (scene.settings.roulette == Roulette::constant
-                                                              ? trapped_depth
-                                                              : scene.settings.roulette_depth)),
+        roulette_begin_(scene.settings.roulette == Roulette::constant ? trapped_depth : scene.settings.roulette_depth),
         next_event_(scene.settings.method == Method::path && scene.lamps.rows() > 0) {}
 
   /// Traces all paths of the source and writes each one's radiance to rgb[3 * its number].
@@ -91,7 +89,7 @@ class PathTracer {
     s.radiance = select(idle, V::all(F(0.0f)), s.radiance);
     if (scene_.has_glass) s.ior2 = select(idle, F(1.0f), s.ior2);
     s.sees_lamps = s.sees_lamps | idle;
-    s.dimension = select(idle, I(camera_dimensions), s.dimension);
+    s.depth = select(idle, I(0), s.depth);
     q.next += wanted;
   }
 
@@ -105,24 +103,21 @@ class PathTracer {
 
     add_emission(s, at, light, missed);
     const M diffuse = equal(at.kind, I(kind_diffuse)) & !missed;
-    V throughput = s.throughput;
+    const M glass = equal(at.kind, I(kind_glass)) & !missed;
+    s.throughput = s.throughput * reflectance(at);
     V direction = s.ray.direction;
-    if (any(diffuse)) scatter_diffuse(s, at, diffuse, throughput, direction);
+    if (any(diffuse)) scatter_diffuse(s, at, diffuse, direction);
     if (scene_.has_mirror) {
       const M mirror = equal(at.kind, I(kind_mirror));
-      direction = select(mirror, reflect(s.ray.direction, at.normal), direction);
-      throughput = select(mirror, s.throughput * reflectance(at), throughput);
+      direction = select(mirror, reflect(s.ray.direction, at.normal, at.cos_o), direction);
     }
-    if (scene_.has_glass) {
-      const M glass = equal(at.kind, I(kind_glass)) & !missed;
-      if (any(glass)) scatter_glass(s, at, glass, throughput, direction);
-    }
+    if (scene_.has_glass && any(glass)) scatter_glass(s, at, glass, direction);
     s.ray = {at.point, direction, at.surface};
-    s.throughput = throughput;
     s.sees_lamps = next_event_ ? !diffuse : M(F(0.0f) < F(1.0f));
-    ended = ended | !(max_component(s.throughput) > F(0.0f));
-    ended = ended | roulette(s, diffuse);
-    s.dimension = s.dimension + I(hit_block_);
+    const F brightest = max_component(s.throughput);
+    ended = ended | !(brightest > F(0.0f)) | roulette(s, brightest, diffuse);
+    s.key = skip_dimensions<F>(s.key, hit_block_);
+    s.depth = s.depth + I(1);
     return ended;
   }
 
@@ -167,7 +162,7 @@ class PathTracer {
     at.normal = select(inverse_radius > F(0.0f), (at.point - n) * inverse_radius, n);
     const F cos = dot(at.normal, ray.direction);
     at.front = cos < F(0.0f);
-    at.normal = select(at.front, at.normal, at.normal * F(-1.0f));
+    at.normal = at.normal * select(at.front, F(1.0f), F(-1.0f));
     at.cos_o = abs(cos);
     at.kind = as_int(value(Column::kind, at));
     return at;
@@ -179,7 +174,7 @@ class PathTracer {
     shines = shines & !missed;
     if (!any(shines)) return;
     const V emission = select(shines, vector(Column::emission_r, at), V::all(F(0.0f)));
-    s.radiance = s.radiance + s.throughput * emission;
+    s.radiance = fma(s.throughput, emission, s.radiance);
   }
 
   OrenNayar<F> oren_nayar(const Shading<F>& at) const {
@@ -188,17 +183,16 @@ class PathTracer {
   }
 
   F random(const PathState<F>& s, HitDimension dimension, std::uint32_t offset = 0) const {
-    return uniform<F>(s.key, as_uint(s.dimension) + U(static_cast<std::uint32_t>(dimension) + offset));
+    return uniform<F>(s.key, static_cast<std::uint32_t>(dimension) + offset);
   }
 
-  /// Next-event estimation, then a direction in proportion to the cosine.
-  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, V& throughput, V& direction) const {
+  /// Next-event estimation, then a direction in proportion to the cosine. The throughput has the reflectance already.
+  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, V& direction) const {
     const V wo = s.ray.direction * F(-1.0f);
-    const V albedo = reflectance(at);
-    const V through = s.throughput * albedo;
     OrenNayar<F> rough{F(1.0f), F(0.0f), F(1.0f) < F(0.0f)};
     if (features.oren_nayar) rough = oren_nayar(at);
     if (next_event_) {
+      const F scale(std::numbers::inv_pi_v<float> / static_cast<float>(scene_.settings.shadow_rays));
       V direct = V::all(F(0.0f));
       for (int k = 0; k < scene_.settings.shadow_rays; ++k) {
         const auto first = static_cast<std::uint32_t>(k) * shadow_dimensions;
@@ -206,56 +200,58 @@ class PathTracer {
             scene_, at.point, random(s, HitDimension::shadow, first), random(s, HitDimension::shadow, first + 1),
             random(s, HitDimension::shadow, first + 2));
         const F cos_i = dot(lamp.direction, at.normal);
-        const M lit = diffuse & (cos_i > F(0.0f)) & (max_component(lamp.radiance_over_pdf) > F(0.0f));
+        const F weight = cos_i * (lamp.inverse_pdf * scale);
+        const M lit = diffuse & (cos_i > F(0.0f)) & (lamp.inverse_pdf > F(0.0f));
         if (!any(lit)) continue;
         const Ray<F> shadow{at.point, lamp.direction, at.surface};
         const M seen =
             lit & !occluded<F, features>(scene_, shadow, lamp.distance, lamp.first_surface, lamp.last_surface);
-        F factor = select(seen, cos_i, F(0.0f));
+        F factor = select(seen, weight, F(0.0f));
         if (features.oren_nayar) factor = factor * oren_nayar_factor(rough, lamp.direction, wo, cos_i, at.cos_o);
-        direct = fma(lamp.radiance_over_pdf, factor, direct);
+        direct = fma(lamp.weight, factor, direct);
       }
-      const F scale(std::numbers::inv_pi_v<float> / static_cast<float>(scene_.settings.shadow_rays));
-      s.radiance = s.radiance + through * select(diffuse, direct * scale, V::all(F(0.0f)));
+      s.radiance = fma(s.throughput, direct, s.radiance);
     }
     const V wi =
         cosine_hemisphere(at.normal, random(s, HitDimension::direction_u), random(s, HitDimension::direction_v));
-    V next = through;
-    if (features.oren_nayar) next = next * oren_nayar_factor(rough, wi, wo, max(dot(wi, at.normal), F(0.0f)), at.cos_o);
-    throughput = select(diffuse, next, throughput);
+    if (features.oren_nayar) {
+      const F factor = oren_nayar_factor(rough, wi, wo, dot(wi, at.normal), at.cos_o);
+      s.throughput = s.throughput * select(diffuse, factor, F(1.0f));
+    }
     direction = select(diffuse, wi, direction);
   }
 
   /// Reflection or refraction, chosen by Fresnel, so both keep the throughput but for the square of the index.
-  void scatter_glass(PathState<F>& s, const Shading<F>& at, const M& glass, V& throughput, V& direction) const {
+  void scatter_glass(PathState<F>& s, const Shading<F>& at, const M& glass, V& direction) const {
     const F ratio = value(Column::eta, at);
-    const F eta = select(at.front, ratio, F(1.0f) / ratio);
-    const Dielectric<F> interface = fresnel(at.cos_o, eta, value(Column::schlick, at) > F(0.5f));
+    const F inverse = reciprocal(ratio);
+    const F eta = select(at.front, ratio, inverse);
+    const F inverse_eta = select(at.front, inverse, ratio);
+    const Dielectric<F> interface = fresnel(at.cos_o, eta, inverse_eta, value(Column::schlick, at) > F(0.5f));
     const M reflected = random(s, HitDimension::direction_u) < interface.reflected;
-    const V mirrored = reflect(s.ray.direction, at.normal);
-    const V refracted = refract(s.ray.direction, at.normal, at.cos_o, interface.cos_t, eta);
+    const V mirrored = reflect(s.ray.direction, at.normal, at.cos_o);
+    const V refracted = refract(s.ray.direction, at.normal, at.cos_o, interface.cos_t, inverse_eta);
     // Many in a row would let the length drift.
     direction = select(glass, normalize(select(reflected, mirrored, refracted)), direction);
     // Radiance in the medium behind is eta^2 times as large as on this side, so this much of it arrives.
-    const F scale = select(glass & !reflected, F(1.0f) / (eta * eta), F(1.0f));
-    throughput = select(glass, s.throughput * scale, throughput);
-    s.ior2 = s.ior2 / scale;
+    const M enters = glass & !reflected;
+    s.throughput = s.throughput * select(enters, inverse_eta * inverse_eta, F(1.0f));
+    s.ior2 = s.ior2 * select(enters, eta * eta, F(1.0f));
   }
 
   /// Ends paths at random and makes up for it in those that go on.
-  M roulette(PathState<F>& s, const M& diffuse) const {
+  M roulette(PathState<F>& s, F brightest, const M& diffuse) const {
     const bool constant = scene_.settings.roulette == Roulette::constant;
-    const M late = !less(s.dimension, I(roulette_begin_));
+    const M late = !less(s.depth, I(roulette_begin_));
     const M plays = constant ? diffuse | late : late;
     if (!any(plays)) return plays;
     // The square of the index is left out: it comes back when the path leaves the glass.
-    const F survival = constant ? F(constant_survival) : min(max_component(s.throughput) * s.ior2, F(largest_survival));
+    const F survival = constant ? F(constant_survival) : min(brightest * s.ior2, F(largest_survival));
     const M dies = plays & !(random(s, HitDimension::roulette) < survival);
-    s.throughput = select(plays, s.throughput * (F(1.0f) / survival), s.throughput);
+    s.throughput = s.throughput * select(plays, reciprocal(survival), F(1.0f));
     return dies;
   }
 
-  static constexpr auto camera_dimensions = static_cast<std::int32_t>(Dimension::camera_count);
   static constexpr float constant_survival = 0.75f;  ///< the report's
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
   static constexpr float largest_survival = 0.95f;   ///< below 1, so that light trapped in glass ends
@@ -265,8 +261,8 @@ class PathTracer {
   const CompiledScene& scene_;
   const float* surfaces_;
   float* rgb_;
-  std::int32_t hit_block_;       ///< dimensions of a hit
-  std::int32_t roulette_begin_;  ///< `dimension` of the first hit at which every path plays roulette
+  std::uint32_t hit_block_;      ///< dimensions of a hit
+  std::int32_t roulette_begin_;  ///< depth of the first hit at which every path plays roulette
   bool next_event_;
 };
 

@@ -8,9 +8,9 @@
 #include <xsimd/xsimd.hpp>
 
 /// Lanes: the kernel is written once for a type F that is either float or a SIMD batch of floats, one path per lane.
-/// This is the only file that names xsimd. The functions below mean the same for every F and are exact (IEEE) or
-/// bit-wise, so a lane computes the same value at every width. A mask of a batch never converts to bool: ask any() or
-/// bits().
+/// This is the only file that names xsimd. The functions below mean the same for every F, and a lane computes the same
+/// value at every width: all are exact (IEEE) or bit-wise, but for quotients and roots on processors with AVX-512, which
+/// divide slowly there. A mask of a batch never converts to bool: ask any() or bits().
 namespace glimt {
 
 template <class F>
@@ -51,7 +51,7 @@ inline float select(bool m, float a, float b) { return m ? a : b; }
 inline std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
 inline std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
 inline float fma(float a, float b, float c) { return std::fma(a, b, c); }
-inline float sqrt(float a) { return std::sqrt(a); }
+inline float fnma(float a, float b, float c) { return std::fma(-a, b, c); }
 inline float abs(float a) { return std::abs(a); }
 inline float min(float a, float b) { return a < b ? a : b; }
 inline float max(float a, float b) { return a > b ? a : b; }
@@ -62,6 +62,47 @@ inline std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
 inline std::int32_t as_int(float a) { return std::bit_cast<std::int32_t>(a); }
 inline std::int32_t as_int(std::uint32_t a) { return static_cast<std::int32_t>(a); }
 inline std::uint32_t as_uint(std::int32_t a) { return static_cast<std::uint32_t>(a); }
+
+// Quotients and roots, within 1 ulp. With AVX-512 they start from the processor's 14-bit estimates, which are the same
+// in one lane and in many, and take a Newton step; elsewhere they are exact.
+
+/// 1 / a, also of zeros and infinities.
+inline float reciprocal(float a) {
+#ifdef __AVX512DQ__
+  const __m128 v = _mm_set_ss(a);
+  const float estimate = _mm_cvtss_f32(_mm_rcp14_ss(v, v));
+  if (estimate == 0 || std::isinf(estimate)) return estimate;
+  return fma(fma(-a, estimate, 1), estimate, estimate);
+#else
+  return 1 / a;
+#endif
+}
+
+/// 1 / sqrt(a) of a positive, finite number.
+inline float inverse_sqrt(float a) {
+#ifdef __AVX512DQ__
+  const __m128 v = _mm_set_ss(a);
+  const float estimate = _mm_cvtss_f32(_mm_rsqrt14_ss(v, v));
+  return fma(fma(-a * estimate, estimate, 1), 0.5f * estimate, estimate);
+#else
+  return 1 / std::sqrt(a);
+#endif
+}
+
+/// Square root of a positive, finite number; NaN for a negative one, NaN or 0 for 0.
+inline float positive_sqrt(float a) {
+#ifdef __AVX512DQ__
+  const __m128 v = _mm_set_ss(a);
+  const float estimate = _mm_cvtss_f32(_mm_rsqrt14_ss(v, v));
+  const float root = a * estimate;
+  return fma(fma(-root, root, a), 0.5f * estimate, root);
+#else
+  return std::sqrt(a);
+#endif
+}
+
+/// Square root of a finite number that is not negative.
+inline float sqrt(float a) { return a > 0 ? positive_sqrt(a) : 0; }
 
 // Many lanes.
 
@@ -119,9 +160,54 @@ xsimd::batch<float, A> fma(xsimd::batch<float, A> a, xsimd::batch<float, A> b, x
 #endif
   return xsimd::fma(a, b, c);
 }
+/// c - a b
+template <class A>
+xsimd::batch<float, A> fnma(xsimd::batch<float, A> a, xsimd::batch<float, A> b, xsimd::batch<float, A> c) {
+#ifdef __AVX512F__
+  if constexpr (std::is_same_v<typename xsimd::batch<float, A>::register_type, __m512>)
+    return xsimd::batch<float, A>(_mm512_fnmadd_ps(a.data, b.data, c.data));
+#endif
+  return xsimd::fnma(a, b, c);
+}
+template <class A>
+xsimd::batch<float, A> reciprocal(xsimd::batch<float, A> a) {
+#ifdef __AVX512DQ__
+  if constexpr (std::is_same_v<typename xsimd::batch<float, A>::register_type, __m512>) {
+    const __m512 estimate = _mm512_rcp14_ps(a.data);
+    const __mmask16 special = _mm512_fpclass_ps_mask(estimate, 0x02 | 0x04 | 0x08 | 0x10);  // zeros and infinities
+    const __m512 error = _mm512_fnmadd_ps(a.data, estimate, _mm512_set1_ps(1.0f));
+    return xsimd::batch<float, A>(_mm512_mask_mov_ps(_mm512_fmadd_ps(error, estimate, estimate), special, estimate));
+  }
+#endif
+  return xsimd::batch<float, A>(1.0f) / a;
+}
+template <class A>
+xsimd::batch<float, A> inverse_sqrt(xsimd::batch<float, A> a) {
+#ifdef __AVX512DQ__
+  if constexpr (std::is_same_v<typename xsimd::batch<float, A>::register_type, __m512>) {
+    const __m512 estimate = _mm512_rsqrt14_ps(a.data);
+    const __m512 error = _mm512_fnmadd_ps(_mm512_mul_ps(a.data, estimate), estimate, _mm512_set1_ps(1.0f));
+    return xsimd::batch<float, A>(_mm512_fmadd_ps(error, _mm512_mul_ps(_mm512_set1_ps(0.5f), estimate), estimate));
+  }
+#endif
+  return xsimd::batch<float, A>(1.0f) / xsimd::sqrt(a);
+}
+template <class A>
+xsimd::batch<float, A> positive_sqrt(xsimd::batch<float, A> a) {
+#ifdef __AVX512DQ__
+  if constexpr (std::is_same_v<typename xsimd::batch<float, A>::register_type, __m512>) {
+    const __m512 estimate = _mm512_rsqrt14_ps(a.data);
+    const __m512 root = _mm512_mul_ps(a.data, estimate);
+    const __m512 error = _mm512_fnmadd_ps(root, root, a.data);
+    return xsimd::batch<float, A>(_mm512_fmadd_ps(error, _mm512_mul_ps(_mm512_set1_ps(0.5f), estimate), root));
+  }
+#endif
+  return xsimd::sqrt(a);
+}
 template <class A>
 xsimd::batch<float, A> sqrt(xsimd::batch<float, A> a) {
-  return xsimd::sqrt(a);
+  using F = xsimd::batch<float, A>;
+  return select(a > F(0.0f), positive_sqrt(a), F(0.0f));
 }
 template <class A>
 xsimd::batch<float, A> abs(xsimd::batch<float, A> a) {
@@ -184,6 +270,17 @@ void store(V value, T* to) {
   } else {
     value.store_unaligned(to);
   }
+}
+
+/// 0, 1, 2, ...
+template <class F>
+Int<F> lane_numbers() {
+  static constexpr auto numbers = [] {
+    std::array<std::int32_t, lane_count<F>> n{};
+    for (std::size_t i = 0; i < n.size(); ++i) n[i] = static_cast<std::int32_t>(i);
+    return n;
+  }();
+  return load<Int<F>>(numbers.data());
 }
 
 /// table[index] in every lane.

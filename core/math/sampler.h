@@ -39,15 +39,23 @@ enum class HitDimension : std::uint32_t { direction_u, direction_v, roulette, sh
 inline constexpr std::uint32_t shadow_dimensions = 3;  ///< which lamp, u and v on it
 
 /// Number of dimensions in the block of a hit.
-inline int hit_dimensions(int shadow_rays) {
-  return static_cast<int>(HitDimension::shadow) + static_cast<int>(shadow_dimensions) * shadow_rays;
+inline std::uint32_t hit_dimensions(int shadow_rays) {
+  return static_cast<std::uint32_t>(HitDimension::shadow) + shadow_dimensions * static_cast<std::uint32_t>(shadow_rays);
+}
+
+inline constexpr std::uint32_t dimension_stride = 0x9e3779b9u;  ///< odd, near 2^32 / golden ratio
+
+/// The key whose dimension 0 is dimension `count` of this one, so that the dimensions of a hit are constants.
+template <class F>
+PathKey<F> skip_dimensions(const PathKey<F>& key, std::uint32_t count) {
+  return {key.a + Uint<F>(count * dimension_stride), key.b};
 }
 
 /// A uniform number in [0, 1), a multiple of 2^-24.
 template <class F>
-F uniform(const PathKey<F>& key, Uint<F> dimension) {
+F uniform(const PathKey<F>& key, std::uint32_t dimension) {
   using U = Uint<F>;
-  U x = key.a + dimension * U(0x9e3779b9u);
+  U x = key.a + U(dimension * dimension_stride);
   x ^= x >> 16;
   x = x * U(0x7feb352du);
   x ^= key.b;

@@ -23,20 +23,32 @@ F dot(const Vec3<F>& a, const Vec3<F>& b) {
   return fma(a.x, b.x, fma(a.y, b.y, fma(a.z, b.z, F(0.0f))));
 }
 
+/// b - a s
+template <class F>
+Vec3<F> fnma(const Vec3<F>& a, F s, const Vec3<F>& b) {
+  return {fnma(a.x, s, b.x), fnma(a.y, s, b.y), fnma(a.z, s, b.z)};
+}
+
 /// a s + b
 template <class F>
 Vec3<F> fma(const Vec3<F>& a, F s, const Vec3<F>& b) {
   return {fma(a.x, s, b.x), fma(a.y, s, b.y), fma(a.z, s, b.z)};
 }
 
+/// a b + c, component by component
+template <class F>
+Vec3<F> fma(const Vec3<F>& a, const Vec3<F>& b, const Vec3<F>& c) {
+  return {fma(a.x, b.x, c.x), fma(a.y, b.y, c.y), fma(a.z, b.z, c.z)};
+}
+
 template <class F>
 Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
-  return {fma(a.y, b.z, F(0.0f) - a.z * b.y), fma(a.z, b.x, F(0.0f) - a.x * b.z), fma(a.x, b.y, F(0.0f) - a.y * b.x)};
+  return {fnma(a.z, b.y, a.y * b.z), fnma(a.x, b.z, a.z * b.x), fnma(a.y, b.x, a.x * b.y)};
 }
 
 template <class F>
 Vec3<F> normalize(const Vec3<F>& a) {
-  return a * (F(1.0f) / sqrt(dot(a, a)));
+  return a * inverse_sqrt(dot(a, a));
 }
 
 template <class F>

@@ -32,22 +32,18 @@ SinCos<F> sincos_turns(F u) {
 template <class F>
 Vec3<F> uniform_sphere(F u, F v) {
   const F z = fma(F(-2.0f), u, F(1.0f));
-  const F r = sqrt(max(fma(F(0.0f) - z, z, F(1.0f)), F(0.0f)));
+  const F r = sqrt(fnma(z, z, F(1.0f)));
   const SinCos<F> turn = sincos_turns(v);
   return {r * turn.cos, r * turn.sin, z};
 }
 
 /// A direction about the unit normal n with pdf_w = cos(theta) / pi. A uniform point of the sphere that touches the
 /// surface from above, seen from the touching point, is cosine-distributed; so n + uniform_sphere needs no tangent
-/// frame.
+/// frame. The sphere is lifted by a millionth: the sum then has a direction for its lowest point too, and every direction
+/// leaves the surface.
 template <class F>
 Vec3<F> cosine_hemisphere(const Vec3<F>& n, F u, F v) {
-  const Vec3<F> w = n + uniform_sphere(u, v);
-  // The sphere's point opposite to n has no direction; the square below is about the smallest that rounding leaves
-  // elsewhere.
-  const F square = dot(w, w);
-  const Mask<F> defined = square > F(1e-12f);
-  return select(defined, w * (F(1.0f) / sqrt(select(defined, square, F(1.0f)))), n);
+  return normalize(fma(n, F(1.000001f), uniform_sphere(u, v)));
 }
 
 }  // namespace glimt

@@ -75,17 +75,24 @@ void lower_room(Lowering& l) {
   };
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (done[i]) continue;
-    const auto [n, d] = faces[i].inside;
-    const auto f = to_floats(n);
-    Slab slab{f[0], f[1], f[2], static_cast<float>(-infinity), static_cast<float>(d - dot(n, l.origin)), 0, 0};
-    slab.surface_hi = slab.surface_lo = add(i);
+    const auto [n, hi] = faces[i].inside;
+    // A face without a partner gets one so far outside the room that no ray reaches it.
+    double lo = hi;
+    for (const RoomFace& face : faces)
+      for (const dvec3& v : face.outline) lo = std::min(lo, dot(n, v));
+    lo -= hi - lo;
+    const int surface_hi = add(i);
+    int surface_lo = surface_hi;
     for (std::size_t k = i + 1; k < faces.size(); ++k) {
       if (done[k] || dot(n, faces[k].inside.n) > -1 + 1e-14) continue;
-      slab.lo = static_cast<float>(-faces[k].inside.d - dot(n, l.origin));
-      slab.surface_lo = add(k);
+      lo = -faces[k].inside.d;
+      surface_lo = add(k);
       break;
     }
-    l.out.room.push_back(slab);
+    const auto f = to_floats(n);
+    const double middle = (hi + lo) / 2 - dot(n, l.origin);
+    l.out.room.push_back(
+        {f[0], f[1], f[2], static_cast<float>(middle), static_cast<float>((hi - lo) / 2), surface_lo, surface_hi});
   }
   if (!faces.empty())
     l.out.compiled_in.push_back("a closed convex room of " + std::to_string(faces.size()) + " faces as " +
@@ -129,7 +136,7 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   const auto f = to_floats(c);
   const bool around_eye = length(l.scene.camera.eye - sphere.center) < sphere.radius;
   auto& list = glass ? l.out.glass_spheres : around_eye ? l.out.shells : l.out.spheres;
-  list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius), surface});
+  list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   if (material.type == MaterialType::light && !around_eye)
     l.lamps.push_back({LampShape::sphere, c, dvec3{sphere.radius, 0, 0}, {}, {}, material.radiance, surface, surface});
 }

@@ -103,11 +103,10 @@ class Table {
   std::unique_ptr<float[], Free> data_;
 };
 
-/// A pair of parallel faces of the closed convex room around the camera: lo <= n.x <= hi inside. Either bound may be
-/// infinite.
+/// A pair of parallel faces of the closed convex room around the camera: |n.x - middle| <= half inside.
 struct Slab {
   float nx, ny, nz;
-  float lo, hi;
+  float middle, half;  ///< metres
   std::int32_t surface_lo, surface_hi;
 };
 
@@ -125,7 +124,7 @@ struct Solid {
 };
 
 struct SphereShape {
-  float cx, cy, cz, r;
+  float cx, cy, cz, r2;  ///< centre, square of the radius
   std::int32_t surface;
 };
 

@@ -215,8 +215,8 @@ TEST(Compile, ASceneFarAwayIsTheSame) {
     const double allowed = 2e-6 + distance * 1e-14;
     auto expect_near = [&](float a, float b) { EXPECT_NEAR(a, b, allowed) << "moved by " << distance; };
     for (std::size_t i = 0; i < near.room.size(); ++i) {
-      expect_near(far.room[i].lo, near.room[i].lo);
-      expect_near(far.room[i].hi, near.room[i].hi);
+      expect_near(far.room[i].middle, near.room[i].middle);
+      expect_near(far.room[i].half, near.room[i].half);
     }
     for (std::size_t i = 0; i < near.solid_planes.size(); ++i)
       expect_near(far.solid_planes[i].d, near.solid_planes[i].d);

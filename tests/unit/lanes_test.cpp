@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <ios>
 #include <limits>
 #include <random>
@@ -97,8 +98,40 @@ TEST(Lanes, ArithmeticAgrees) {
   EXPECT_LANES_AGREE(a * b, f);
   EXPECT_LANES_AGREE(a / b, f);
   EXPECT_LANES_AGREE(glimt::fma(a, b, c), f);
-  EXPECT_LANES_AGREE(glimt::sqrt(a), f);
   EXPECT_LANES_AGREE(glimt::abs(a), f);
+}
+
+/// Finite positive floats of all magnitudes whose roots and reciprocals are normal numbers too.
+std::vector<float> positive_floats() {
+  std::mt19937 random(5);
+  std::vector<float> values{1, 2, 4, 0.5f, 3, 0x1p-120f, 0x1p120f};
+  while (values.size() < 20000)
+    values.push_back(std::ldexp(1 + static_cast<float>(random() >> 9) * 0x1p-23f, static_cast<int>(random() % 240) - 120));
+  return values;
+}
+
+TEST(Lanes, QuotientsAndRootsAgree) {
+  EXPECT_LANES_AGREE(reciprocal(a), floats());
+  EXPECT_LANES_AGREE(inverse_sqrt(a), positive_floats());
+  EXPECT_LANES_AGREE(glimt::sqrt(a), positive_floats());
+  EXPECT_LANES_AGREE(glimt::sqrt(a - a), positive_floats());
+}
+
+// One unit in the last place is 2^-23 of the leading digit's value, so at most 2^-23 of the result.
+TEST(Lanes, QuotientsAndRootsAreWithinOneUnitInTheLastPlace) {
+  const auto expect_close = [](float found, double exact, float of) {
+    EXPECT_NEAR(found / exact, 1, 0x1p-23) << std::hexfloat << of;
+  };
+  for (const float a : positive_floats()) {
+    expect_close(reciprocal(a), 1.0 / a, a);
+    expect_close(reciprocal(-a), -1.0 / a, -a);
+    expect_close(inverse_sqrt(a), 1 / std::sqrt(static_cast<double>(a)), a);
+    expect_close(glimt::sqrt(a), std::sqrt(static_cast<double>(a)), a);
+  }
+  EXPECT_EQ(reciprocal(0.0f), std::numeric_limits<float>::infinity());
+  EXPECT_EQ(reciprocal(-0.0f), -std::numeric_limits<float>::infinity());
+  EXPECT_EQ(reciprocal(std::numeric_limits<float>::infinity()), 0.0f);
+  EXPECT_EQ(glimt::sqrt(0.0f), 0.0f);
 }
 
 // min and max are not symmetric in NaN and in the sign of zero: the second argument wins, at every width.

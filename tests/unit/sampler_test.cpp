@@ -132,7 +132,7 @@ TEST(Sampler, LanesDrawTheScalarNumbers) {
     for (std::uint32_t i = 0; i < pixel.size(); ++i)
       pixel[i] = mix(trial * 64 + i), sample[i] = mix(pixel[i]) >> (trial % 32);
     const PathKey<NativeLanes> key = path_key<NativeLanes>(trial, load<U>(pixel.data()), load<U>(sample.data()));
-    store(uniform<NativeLanes>(key, U(trial)), lane.data());
+    store(uniform<NativeLanes>(key, trial), lane.data());
     for (std::size_t i = 0; i < pixel.size(); ++i)
       ASSERT_EQ(lane[i], uniform<float>(path_key<float>(trial, pixel[i], sample[i]), trial))
           << pixel[i] << " " << sample[i];
