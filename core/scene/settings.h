@@ -25,7 +25,7 @@ struct Settings {
   int seed = 1;         ///< of the random numbers
   Method method = Method::path;
   Roulette roulette = Roulette::throughput;
-  int roulette_depth = 4;  ///< surface hits before `throughput` roulette begins
+  int roulette_depth = 3;  ///< surface hits before `throughput` roulette begins
 
   bool operator==(const Settings&) const = default;
 };
