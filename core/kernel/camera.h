@@ -21,8 +21,8 @@ struct PathQueue {
 
   Array<float> direction_x, direction_y, direction_z;
   Array<std::uint32_t> key_a, key_b;  ///< past the camera's dimensions
-  Array<std::int32_t> path;  ///< number of the path in its block; -1 where there is none
-  int next = capacity;       ///< first place not taken yet
+  Array<std::int32_t> path;           ///< number of the path in its block; -1 where there is none
+  int next = capacity;                ///< first place not taken yet
 };
 
 /// Where paths come from. Asked once for many paths, so the path loop is compiled once for all sources.
@@ -40,7 +40,11 @@ template <class F>
 class CameraRays final : public PathSource<F> {
  public:
   CameraRays(const CompiledScene& scene, const PathBlock& block)
-      : scene_(scene), block_(block), x_(block.x0), y_(block.y0), sample_(static_cast<std::int32_t>(block.first_sample)) {}
+      : scene_(scene),
+        block_(block),
+        x_(block.x0),
+        y_(block.y0),
+        sample_(static_cast<std::int32_t>(block.first_sample)) {}
 
   Vec3<F> origin() const override { return vec(scene_.camera.eye); }
   bool exhausted() const override { return next_path_ >= block_.paths(); }

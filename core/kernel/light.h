@@ -11,10 +11,10 @@ namespace glimt {
 /// A direction in which a lamp may be seen.
 template <class F>
 struct LampSample {
-  Vec3<F> direction;          ///< unit, from the shaded point
-  F distance;                 ///< metres
-  Vec3<F> weight;             ///< times `inverse_pdf`: radiance over pdf_w, the choice of the lamp counted in
-  F inverse_pdf;              ///< 0 where the lamp shows its back
+  Vec3<F> direction;                   ///< unit, from the shaded point
+  F distance;                          ///< metres
+  Vec3<F> weight;                      ///< times `inverse_pdf`: radiance over pdf_w, the choice of the lamp counted in
+  F inverse_pdf;                       ///< 0 where the lamp shows its back
   Int<F> first_surface, last_surface;  ///< the lamp's own, which cannot hide it
 };
 

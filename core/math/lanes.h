@@ -9,8 +9,8 @@
 
 /// Lanes: the kernel is written once for a type F that is either float or a SIMD batch of floats, one path per lane.
 /// This is the only file that names xsimd. The functions below mean the same for every F, and a lane computes the same
-/// value at every width: all are exact (IEEE) or bit-wise, but for quotients and roots on processors with AVX-512, which
-/// divide slowly there. A mask of a batch never converts to bool: ask any() or bits().
+/// value at every width: all are exact (IEEE) or bit-wise, but for quotients and roots on processors with AVX-512,
+/// which divide slowly there. A mask of a batch never converts to bool: ask any() or bits().
 namespace glimt {
 
 template <class F>

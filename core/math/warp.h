@@ -39,8 +39,8 @@ Vec3<F> uniform_sphere(F u, F v) {
 
 /// A direction about the unit normal n with pdf_w = cos(theta) / pi. A uniform point of the sphere that touches the
 /// surface from above, seen from the touching point, is cosine-distributed; so n + uniform_sphere needs no tangent
-/// frame. The sphere is lifted by a millionth: the sum then has a direction for its lowest point too, and every direction
-/// leaves the surface.
+/// frame. The sphere is lifted by a millionth: the sum then has a direction for its lowest point too, and every
+/// direction leaves the surface.
 template <class F>
 Vec3<F> cosine_hemisphere(const Vec3<F>& n, F u, F v) {
   return normalize(fma(n, F(1.000001f), uniform_sphere(u, v)));

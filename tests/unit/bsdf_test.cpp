@@ -123,7 +123,8 @@ const std::vector<double> indices{0.4, 1 / 1.5, 0.9, 1.0, 1.1, 1.33, 1.5, 2.4, 1
 TEST(FresnelShare, NormalIncidence) {
   for (const double n : indices) {
     EXPECT_NEAR(to_double(exact(1, n).reflected), std::pow((n - 1) / (n + 1), 2), 3e-7) << n;
-    EXPECT_NEAR(to_double(fresnel_at(1.0f, static_cast<float>(n), true).reflected), std::pow((n - 1) / (n + 1), 2), 3e-7)
+    EXPECT_NEAR(to_double(fresnel_at(1.0f, static_cast<float>(n), true).reflected), std::pow((n - 1) / (n + 1), 2),
+                3e-7)
         << n;
     EXPECT_NEAR(to_double(exact(1, n).cos_t), 1, 1e-7) << n;
   }

@@ -106,7 +106,8 @@ std::vector<float> positive_floats() {
   std::mt19937 random(5);
   std::vector<float> values{1, 2, 4, 0.5f, 3, 0x1p-120f, 0x1p120f};
   while (values.size() < 20000)
-    values.push_back(std::ldexp(1 + static_cast<float>(random() >> 9) * 0x1p-23f, static_cast<int>(random() % 240) - 120));
+    values.push_back(
+        std::ldexp(1 + static_cast<float>(random() >> 9) * 0x1p-23f, static_cast<int>(random() % 240) - 120));
   return values;
 }
 
