@@ -77,8 +77,8 @@ def output_of(program, *arguments):
     return json.loads(subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout)
 
 
-def compare(image, reference):
-    return output_of(GLIMT, "compare", image, reference, "--json")
+def compare(image, reference, program=GLIMT):
+    return output_of(program, "compare", image, reference, "--json")
 
 
 def quartiles(values):

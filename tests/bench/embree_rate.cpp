@@ -25,7 +25,7 @@ using namespace glimt;
 using glm::vec3;
 
 constexpr int width = lane_count<NativeLanes>;
-constexpr int rays = 1 << 18;
+constexpr int rays = 1 << 17;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// The scene in compiled space: flat shapes as one mesh of triangles, spheres as spheres.
