@@ -1,20 +1,15 @@
 // embree_rate SCENE: rays per second of Embree's tree and of the kernel's flat list on the same geometry, the same rays
-// and all threads, as JSON. The rays are those of a random walk from the camera: each starts near the surface that the
-// one before has hit, in a uniform direction off it. A shadow ray joins two of their origins. No shading.
-#include <embree3/rtcore.h>
-
+// (random_walk) and all threads, as JSON. No shading.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <limits>
+#include <functional>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "embree_tree.h"
 #include "kernel/intersect.h"
 #include "render/render.h"
 #include "scene/scene_file.h"
@@ -22,156 +17,9 @@
 namespace {
 
 using namespace glimt;
-using glm::vec3;
 
 constexpr int width = lane_count<NativeLanes>;
 constexpr int rays = 1 << 17;
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
-/// The scene in compiled space: flat shapes as one mesh of triangles, spheres as spheres.
-class Tree {
- public:
-  Tree(const Scene& scene, const std::array<double, 3>& origin)
-      : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-    const glm::dvec3 middle(origin[0], origin[1], origin[2]);
-    std::vector<vec3> vertices;
-    std::vector<std::array<unsigned, 3>> triangles;
-    auto first = [&] { return static_cast<unsigned>(vertices.size()); };
-    for (const Polygon& polygon : scene.polygons) {
-      for (unsigned k = 1; k + 1 < polygon.vertices.size(); ++k)
-        triangles.push_back({first(), first() + k, first() + k + 1});
-      for (const auto& v : polygon.vertices) vertices.emplace_back(v - middle);
-    }
-    for (const Mesh& mesh : scene.meshes) {
-      for (const auto& t : mesh.triangles)
-        triangles.push_back({first() + static_cast<unsigned>(t[0]), first() + static_cast<unsigned>(t[1]),
-                             first() + static_cast<unsigned>(t[2])});
-      for (const auto& v : mesh.vertices) vertices.emplace_back(v - middle);
-    }
-    std::vector<std::array<float, 4>> spheres;
-    for (const Sphere& sphere : scene.spheres) {
-      const vec3 c(sphere.center - middle);
-      spheres.push_back({c.x, c.y, c.z, static_cast<float>(sphere.radius)});
-    }
-    add(RTC_GEOMETRY_TYPE_TRIANGLE, RTC_FORMAT_FLOAT3, vertices, triangles);
-    add(RTC_GEOMETRY_TYPE_SPHERE_POINT, RTC_FORMAT_FLOAT4, spheres, std::vector<unsigned>{});
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
-    rtcCommitScene(scene_);
-    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree refuses the scene");
-  }
-  Tree(const Tree&) = delete;
-  Tree& operator=(const Tree&) = delete;
-  ~Tree() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
-  operator RTCScene() const { return scene_; }
-
- private:
-  template <class Vertex, class Index>
-  void add(RTCGeometryType type, RTCFormat format, const std::vector<Vertex>& vertices,
-           const std::vector<Index>& indices) {
-    if (vertices.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device_, type);
-    std::copy(vertices.begin(), vertices.end(),
-              static_cast<Vertex*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, format, sizeof(Vertex),
-                                                           vertices.size())));
-    if (!indices.empty())
-      std::copy(indices.begin(), indices.end(),
-                static_cast<Index*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                            sizeof(Index), indices.size())));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
-  }
-
-  RTCDevice device_;
-  RTCScene scene_;
-};
-
-/// Origins, directions and ends of rays, compiled space.
-struct Rays {
-  std::array<std::vector<float>, 3> origin, direction, to_light;  ///< `to_light`: unit, of the shadow rays
-  std::vector<float> light_distance;                              ///< metres
-};
-
-RTCRayHit single(const Rays& r, int i, bool shadow) {
-  RTCRayHit query{};
-  const auto k = static_cast<std::size_t>(i);
-  const auto& d = shadow ? r.to_light : r.direction;
-  query.ray.org_x = r.origin[0][k], query.ray.org_y = r.origin[1][k], query.ray.org_z = r.origin[2][k];
-  query.ray.dir_x = d[0][k], query.ray.dir_y = d[1][k], query.ray.dir_z = d[2][k];
-  query.ray.tfar = shadow ? r.light_distance[k] : infinite;
-  query.ray.mask = ~0U;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  return query;
-}
-
-RTCIntersectContext context(RTCIntersectContextFlags flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT) {
-  RTCIntersectContext c;
-  rtcInitIntersectContext(&c);
-  c.flags = flags;
-  return c;
-}
-
-Rays random_walk(RTCScene tree, const CompiledScene& scene) {
-  std::mt19937 random(1);
-  std::normal_distribution<float> normal;
-  auto uniform_direction = [&] { return glm::normalize(vec3(normal(random), normal(random), normal(random))); };
-  const vec3 eye(scene.camera.eye[0], scene.camera.eye[1], scene.camera.eye[2]);
-  vec3 origin = eye, direction = uniform_direction();
-  Rays r;
-  for (auto* v : {&r.origin, &r.direction, &r.to_light})
-    for (auto& axis : *v) axis.resize(rays);
-  r.light_distance.resize(rays);
-  for (int i = 0; i < rays; ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    for (int k = 0; k < 3; ++k) r.origin[static_cast<std::size_t>(k)][place] = origin[k];
-    for (int k = 0; k < 3; ++k) r.direction[static_cast<std::size_t>(k)][place] = direction[k];
-    RTCRayHit query = single(r, i, false);
-    RTCIntersectContext c = context();
-    rtcIntersect1(tree, &c, &query);
-    const bool hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-    if (!hit || i % 16 == 0) {
-      origin = eye, direction = uniform_direction();
-    } else {
-      origin += direction * (query.ray.tfar * 0.999f);
-      vec3 n(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-      if (glm::dot(n, direction) > 0) n = -n;
-      direction = uniform_direction();
-      if (glm::dot(n, direction) < 0) direction = -direction;
-    }
-  }
-  std::uniform_int_distribution<std::size_t> any_ray(0, rays - 1);
-  for (std::size_t i = 0; i < rays; ++i) {
-    vec3 way(0);
-    while (glm::length(way) < 0.1f) {
-      const std::size_t j = any_ray(random);
-      way = {r.origin[0][j] - r.origin[0][i], r.origin[1][j] - r.origin[1][i], r.origin[2][j] - r.origin[2][i]};
-    }
-    r.light_distance[i] = glm::length(way);
-    for (int k = 0; k < 3; ++k) r.to_light[static_cast<std::size_t>(k)][i] = way[k] / r.light_distance[i];
-  }
-  return r;
-}
-
-/// Rays per second on all threads; `trace(i)` traces rays i to i + width - 1 and returns how many of them hit. The
-/// median of nine runs.
-template <class Trace>
-double rate(Trace trace, double& hit_share) {
-  std::vector<double> seconds;
-  long hits = 0;
-  for (int repeat = 0; repeat < 10; ++repeat) {
-    hits = 0;
-    const auto start = std::chrono::steady_clock::now();
-#pragma omp parallel for schedule(dynamic, 64) reduction(+ : hits)
-    for (int i = 0; i < rays; i += width) hits += trace(i);
-    if (repeat > 0) seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  hit_share = static_cast<double>(hits) / rays;
-  std::nth_element(seconds.begin(), seconds.begin() + 4, seconds.end());
-  return rays / seconds[4];
-}
 
 template <int lanes>
 struct Packet;
@@ -253,13 +101,43 @@ int trace_list(const CompiledScene& scene, const Rays& r, int first, bool shadow
   return std::popcount(bits(hit));
 }
 
-nlohmann::json measure(auto trace) {
+/// One way to trace all rays, and how long it took.
+struct Contender {
+  std::string name;
+  std::function<int(int first, bool shadow)> trace;  ///< rays first to first + width - 1; returns how many of them hit
+  bool shadow;
+  int passes = 1;                 ///< over all rays in one run
+  std::vector<double> seconds{};  ///< of each run, for one pass
+  double hit_share = 0;
+
+  /// Runs on all threads.
+  double run() {
+    long hits = 0;
+    const auto start = std::chrono::steady_clock::now();
+#pragma omp parallel reduction(+ : hits)
+    for (int pass = 0; pass < passes; ++pass)
+#pragma omp for schedule(dynamic, 64) nowait
+      for (int chunk = 0; chunk < rays; chunk += 8 * width)
+        for (int i = chunk; i < chunk + 8 * width; i += width) hits += trace(i, shadow);
+    hit_share = static_cast<double>(hits) / rays / passes;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / passes;
+  }
+};
+
+/// Rays per second of each contender: the median of runs of some 30 ms, taken in turn.
+nlohmann::json rates(std::vector<Contender>& contenders) {
+  constexpr int runs = 7;
+  for (Contender& c : contenders)
+    c.passes = std::clamp(static_cast<int>(0.03 / std::min({c.run(), c.run(), c.run()})), 1, 100);
+  for (int i = 0; i < runs; ++i)
+    for (Contender& c : contenders) c.seconds.push_back(c.run());
   nlohmann::json result;
-  double share = 0;
-  result["closest"] = rate([&](int i) { return trace(i, false); }, share);
-  result["closest_hit_share"] = share;
-  result["shadow"] = rate([&](int i) { return trace(i, true); }, share);
-  result["shadow_hit_share"] = share;
+  for (Contender& c : contenders) {
+    std::nth_element(c.seconds.begin(), c.seconds.begin() + runs / 2, c.seconds.end());
+    const char* kind = c.shadow ? "shadow" : "closest";
+    result[c.name][kind] = rays / c.seconds[runs / 2];
+    result[c.name][std::string(kind) + "_hit_share"] = c.hit_share;
+  }
   return result;
 }
 
@@ -270,25 +148,30 @@ int main(int argc, char** argv) try {
   const Scene scene = read_scene(argv[1]);
   const CompiledScene compiled = compile(scene);
   const Tree tree(scene, compiled.origin);
-  const Rays r = random_walk(tree, compiled);
+  const Rays r = random_walk(tree, compiled, rays);
   // As the kernel chooses: the rare shapes cost registers, so it leaves them out where the scene has none.
   const bool rare = !compiled.triangles.empty() || !compiled.shells.empty() || compiled.room_hides_lamps ||
                     std::ranges::any_of(compiled.solids, &Solid::glass) || compiled.lamps.rows() != 1;
   constexpr Features all{.small_table = false, .one_rectangle = false, .oren_nayar = true, .rare = true};
   constexpr Features few{.small_table = false, .one_rectangle = true, .oren_nayar = false, .rare = false};
-  // With the flag for incoherent rays Embree takes packets apart.
-  auto packets = [&](RTCIntersectContextFlags flags) {
-    return measure([&](int i, bool shadow) { return trace_packet(tree, r, i, shadow, flags); });
-  };
-  const nlohmann::json result{
-      {"lanes", width},
-      {"threads", hardware_threads()},
-      {"embree_packets", packets(RTC_INTERSECT_CONTEXT_FLAG_COHERENT)},
-      {"embree_packets_split", packets(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT)},
-      {"embree_single", measure([&](int i, bool shadow) { return trace_singles(tree, r, i, shadow); })},
-      {"flat_list", measure([&](int i, bool shadow) {
-         return rare ? trace_list<all>(compiled, r, i, shadow) : trace_list<few>(compiled, r, i, shadow);
-       })}};
+  std::vector<Contender> contenders;
+  for (const bool shadow : {false, true}) {
+    contenders.push_back(
+        {"embree_packets",
+         [&](int i, bool s) { return trace_packet(tree, r, i, s, RTC_INTERSECT_CONTEXT_FLAG_COHERENT); }, shadow});
+    // With this flag Embree takes packets apart.
+    contenders.push_back(
+        {"embree_packets_split",
+         [&](int i, bool s) { return trace_packet(tree, r, i, s, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT); }, shadow});
+    contenders.push_back({"embree_single", [&](int i, bool s) { return trace_singles(tree, r, i, s); }, shadow});
+    contenders.push_back(
+        {"flat_list",
+         [&](int i, bool s) { return rare ? trace_list<all>(compiled, r, i, s) : trace_list<few>(compiled, r, i, s); },
+         shadow});
+  }
+  nlohmann::json result = rates(contenders);
+  result["lanes"] = width;
+  result["threads"] = hardware_threads();
   std::puts(result.dump(1).c_str());
 } catch (const std::exception& error) {
   std::fprintf(stderr, "embree_rate: %s\n", error.what());
