@@ -44,11 +44,26 @@ def _ply(vertices, triangles):
     return "\n".join(lines) + "\n"
 
 
-def translate(scene, folder, look_at, width, height, spp, sampler, rr_depth):
+def _to_square(vertices):
+    """The matrix that takes Mitsuba's rectangle, (-1, -1, 0) to (1, 1, 0) facing +z, to a parallelogram; None for other
+    polygons."""
+    if len(vertices) != 4:
+        return None
+    v0, v1, v2, v3 = vertices
+    if any(abs(a + c - b - d) > 1e-9 for a, b, c, d in zip(v0, v1, v2, v3)):
+        return None
+    half_1, half_2 = ([(b - a) / 2 for a, b in zip(v0, v)] for v in (v1, v3))
+    normal = [half_1[i - 2] * half_2[i - 1] - half_1[i - 1] * half_2[i - 2] for i in range(3)]
+    length = sum(c * c for c in normal) ** 0.5
+    centre = [(a + c) / 2 for a, c in zip(v0, v2)]
+    return [[half_1[i], half_2[i], normal[i] / length, centre[i]] for i in range(3)] + [[0, 0, 0, 1]]
+
+
+def translate(scene, folder, look_at, matrix, width, height, spp, sampler, rr_depth):
     """The scene, as read from TOML, for mitsuba.load_dict.
 
-    Flat shapes become meshes, written to `folder` as PLY files, because Mitsuba traces those fastest.
-    `look_at(origin, target, up)` makes a transform. Raises Untranslated.
+    Lamps that are parallelograms become rectangles and all else that is flat meshes, written to `folder` as PLY files:
+    so Mitsuba is fastest. `look_at(origin, target, up)` and `matrix(rows)` make transforms. Raises Untranslated.
     """
     camera = scene["camera"]
     result = {
@@ -89,6 +104,10 @@ def translate(scene, folder, look_at, width, height, spp, sampler, rr_depth):
         shape = {"type": "sphere", "center": sphere["center"], "radius": float(sphere["radius"])}
         add(f"sphere_{i}", shape, sphere["material"])
     for i, polygon in enumerate(scene.get("polygon", [])):
+        square = _to_square(polygon["vertices"])
+        if square and scene["material"][polygon["material"]]["type"] == "light":
+            add(f"polygon_{i}", {"type": "rectangle", "to_world": matrix(square)}, polygon["material"])
+            continue
         fan = [(0, k, k + 1) for k in range(1, len(polygon["vertices"]) - 1)]
         add_mesh(f"polygon_{i}", polygon["vertices"], fan, polygon["material"])
     for i, mesh in enumerate(scene.get("mesh", [])):

@@ -28,10 +28,10 @@ def main():
             key = json.dumps({k: v for k, v in job.items() if k not in ("seed", "output")})
             try:
                 if key not in loaded:
-                    transform = mi.ScalarTransform4f().look_at
+                    transforms = mi.ScalarTransform4f().look_at, mi.ScalarTransform4f
                     size = {k: job[k] for k in ("width", "height", "spp", "sampler", "rr_depth")}
                     loaded[key] = mi.load_dict(
-                        mitsuba_scene.translate(mitsuba_scene.read(job["scene"]), folder, transform, **size))
+                        mitsuba_scene.translate(mitsuba_scene.read(job["scene"]), folder, *transforms, **size))
                 scene = loaded[key]
                 spp = scene.sensors()[0].sampler().sample_count()
                 start = time.perf_counter()

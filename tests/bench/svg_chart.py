@@ -5,22 +5,21 @@ from dataclasses import dataclass
 from xml.sax.saxutils import escape
 
 WIDTH, HEIGHT = 270, 230  # of a panel, pixels
-LEFT, RIGHT, TOP, BOTTOM = 52, 12, 26, 42
+LEFT, RIGHT, TOP, BOTTOM = 52, 12, 10, 42
 STYLES = [("#000", "", "circle"), ("#000", "5 3", "square"), ("#777", "", "triangle"), ("#777", "2 3", "diamond")]
 
 
 @dataclass
 class Panel:
-    title: str
     x_label: str
     y_label: str
     series: dict  # name: [(x, y), ...], all positive; a single name is not printed
 
 
 def ticks(low, high):
-    """Round numbers from low to high: 1, 2 and 5 of each power of ten, or the powers alone where those are many."""
+    """Round numbers from low to high, not too many."""
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    for digits in ((1, 2, 5), (1,)):
+    for digits in ((1, 1.5, 2, 3, 4, 5, 6, 8), (1, 2, 5), (1,)):
         found = [d * 10.0**p for p in powers for d in digits if low * 0.999 <= d * 10.0**p <= high * 1.001]
         if len(found) <= 6:
             break
@@ -36,7 +35,7 @@ def around(values):
 
 
 def number(value):
-    return f"{value:.0f}" if value >= 1 else f"{value:g}"
+    return f"{value:.0f}" if value >= 10 else f"{value:g}"
 
 
 def marker(shape, x, y, colour):
@@ -65,12 +64,12 @@ def draw_panel(panel, left, top):
     def text(x, y, words, anchor="middle", more=""):
         return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
 
-    out = [text((left + right) / 2, top - 10, panel.title, more=' font-weight="bold"')]
+    out = []
     for y in ticks(y_low, y_high):
         height = place(x_low, y)[1]
         out.append(f'<line x1="{left}" y1="{height:.1f}" x2="{right}" y2="{height:.1f}" stroke="#ddd"/>')
         out.append(text(left - 5, height + 3.5, number(y), "end"))
-    for x in ticks(x_low, x_high):
+    for x in sorted(set(xs)) if len(set(xs)) <= 7 else ticks(x_low, x_high):
         across = place(x, y_low)[0]
         out.append(f'<line x1="{across:.1f}" y1="{bottom}" x2="{across:.1f}" y2="{bottom + 4}" stroke="#000"/>')
         out.append(text(across, bottom + 15, number(x)))
