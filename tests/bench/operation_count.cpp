@@ -23,7 +23,7 @@ nlohmann::json operations(const CompiledScene& scene) {
   for (int y = 0; y < scene.height; y += tile)
     for (int x = 0; x < scene.width; x += tile) {
       const PathBlock block{x, y, std::min(tile, scene.width - x), std::min(tile, scene.height - y), 0, samples};
-      const auto values = static_cast<std::size_t>(3 * block.paths());
+      const std::size_t values = 3 * static_cast<std::size_t>(block.paths());
       std::vector<float> counted_rgb(values), rgb(values);
       trace_block<Counted<V>>(scene, block, counted_rgb.data());
       trace_block<V>(scene, block, rgb.data());
