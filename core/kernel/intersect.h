@@ -3,8 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "math/vec.h"
-#include "scene/compiled_scene.h"
+#include "kernel/light.h"
 
 /// Rays against the compiled scene. Nothing here uses an epsilon; a ray never hits again what it leaves, because
 ///  - of a pair of room planes it takes the one it moves towards;
@@ -15,10 +14,11 @@ namespace glimt {
 
 /// What the kernel is compiled for. What a scene does not use costs nothing there: neither time nor registers.
 struct Features {
-  bool small_table;    ///< no more surfaces than lookup_small can hold
-  bool one_rectangle;  ///< the only lamp is one parallelogram
+  bool small_table;        ///< no more surfaces than lookup_small can hold
+  bool one_parallelogram;  ///< the only lamp
   bool oren_nayar;
-  bool rare;  ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room
+  bool rare;  ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON;
+              ///< settings other than the defaults
 };
 
 /// A ray in compiled space; `direction` is of unit length.
@@ -228,7 +228,7 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
   using namespace detail;
   Mask<F> hidden = F(1.0f) < F(0.0f);
   // A single piece of a lamp need not be tested at all, which spares the others the question whose they are.
-  const bool one = features.one_rectangle || scene.lamps.rows() == 1;
+  const bool one = features.one_parallelogram || scene.lamps.rows() == 1;
   const auto only = one ? std::bit_cast<std::int32_t>(scene.lamps[LampColumn::first_surface][0]) : -1;
   auto hide = [&](const Mask<F>& blocks, std::int32_t surface) {
     if (one) {

@@ -62,6 +62,13 @@ inline std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
 inline std::int32_t as_int(float a) { return std::bit_cast<std::int32_t>(a); }
 inline std::int32_t as_int(std::uint32_t a) { return static_cast<std::int32_t>(a); }
 inline std::uint32_t as_uint(std::int32_t a) { return static_cast<std::uint32_t>(a); }
+/// Bit 0 becomes bit 31.
+inline std::uint32_t reverse_bits(std::uint32_t a) {
+  a = (a >> 1 & 0x55555555u) | (a & 0x55555555u) << 1;
+  a = (a >> 2 & 0x33333333u) | (a & 0x33333333u) << 2;
+  a = (a >> 4 & 0x0f0f0f0fu) | (a & 0x0f0f0f0fu) << 4;
+  return __builtin_bswap32(a);
+}
 
 // Quotients and roots, within 1 ulp. With AVX-512 they start from the processor's 14-bit estimates, which are the same
 // in one lane and in many, and take a Newton step; elsewhere they are exact.
@@ -251,6 +258,27 @@ xsimd::batch<std::int32_t, A> as_int(xsimd::batch<std::uint32_t, A> a) {
 template <class A>
 xsimd::batch<std::uint32_t, A> as_uint(xsimd::batch<std::int32_t, A> a) {
   return xsimd::bitwise_cast<xsimd::batch<std::uint32_t, A>>(a);
+}
+
+template <class A>
+xsimd::batch<std::uint32_t, A> reverse_bits(xsimd::batch<std::uint32_t, A> a) {
+  using U = xsimd::batch<std::uint32_t, A>;
+#if defined(__AVX512BW__) && defined(__GFNI__)
+  if constexpr (std::is_same_v<typename U::register_type, __m512i>) {
+    // The bits of every byte, then the bytes of every word.
+    const __m512i bytes = _mm512_gf2p8affine_epi64_epi8(a.data, _mm512_set1_epi64(0x8040201008040201), 0);
+    const __m512i order = _mm512_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
+                                          12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
+                                          12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
+                                          12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);
+    return U(_mm512_shuffle_epi8(bytes, order));
+  }
+#endif
+  a = ((a >> 1) & U(0x55555555u)) | ((a & U(0x55555555u)) << 1);
+  a = ((a >> 2) & U(0x33333333u)) | ((a & U(0x33333333u)) << 2);
+  a = ((a >> 4) & U(0x0f0f0f0fu)) | ((a & U(0x0f0f0f0fu)) << 4);
+  a = ((a >> 8) & U(0x00ff00ffu)) | ((a & U(0x00ff00ffu)) << 8);
+  return (a >> 16) | (a << 16);
 }
 
 /// Consecutive elements from memory, one a lane; `V` is a lane type of float, int32 or uint32.
