@@ -21,7 +21,7 @@ enum class Operation {
   select,   ///< also the refilling of free lanes
   convert,  ///< between integers and floats
   lookup,   ///< in a table, and loads and stores
-  integer,  ///< sums, products, shifts and exclusive ors
+  integer,  ///< sums, products, shifts, bits
   count
 };
 
@@ -109,8 +109,24 @@ Counted<V> operator^(Counted<V> a, Counted<V> b) {
   return counted<V>(Operation::integer, a.v ^ b.v);
 }
 template <class V>
+Counted<V> operator&(Counted<V> a, Counted<V> b) {
+  return counted<V>(Operation::integer, a.v & b.v);
+}
+template <class V>
+Counted<V> operator|(Counted<V> a, Counted<V> b) {
+  return counted<V>(Operation::integer, a.v | b.v);
+}
+template <class V>
 Counted<V>& operator^=(Counted<V>& a, Counted<V> b) {
   return a = a ^ b;
+}
+template <class V>
+Counted<V> reverse_bits(Counted<V> a) {
+  return counted<V>(Operation::integer, reverse_bits(a.v));
+}
+template <class V>
+Counted<V> operator<<(Counted<V> a, int bits) {
+  return counted<V>(Operation::integer, a.v << bits);
 }
 template <class V>
 Counted<V> operator>>(Counted<V> a, int bits) {
