@@ -316,7 +316,8 @@ class PathTracer {
 
   static constexpr float constant_survival = 0.75f;  ///< the report's
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
-  static constexpr float largest_survival = 0.95f;   ///< below 1, so that light trapped in glass ends
+  static constexpr float largest_survival =
+      0.99f;  ///< below 1, so that light trapped in glass ends; see compile_warnings.cpp
 
   static constexpr int small_stride = 32;  ///< of tables with up to 32 rows, so that columns are at fixed places
 
