@@ -124,15 +124,6 @@ TEST(LampEdgeOn, ShinesByTheSineOfTheAngle) {
     }
 }
 
-/// Fresnel's reflectance of unpolarised light, in double precision.
-double fresnel_exact(double cos_i, double eta) {
-  const double sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-  if (sin2_t >= 1) return 1;
-  const double cos_t = std::sqrt(1 - sin2_t);
-  const double s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t), p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-  return (s * s + p * p) / 2;
-}
-
 // Failure: light through a pane is lost or doubled by the reflections within it. With R at each side, (1 - R)^2 (1 +
 // R^2
 // + R^4 + ...) = (1 - R) / (1 + R) of the lamp is seen.

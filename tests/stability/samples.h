@@ -52,4 +52,13 @@ inline double lambert_irradiance(const std::vector<dvec3>& polygon, const dvec3&
   return std::abs(sum) / 2;
 }
 
+/// Fresnel's reflectance of unpolarised light, in double precision.
+inline double fresnel_exact(double cos_i, double eta) {
+  const double sin2_t = (1 - cos_i * cos_i) / (eta * eta);
+  if (sin2_t >= 1) return 1;
+  const double cos_t = std::sqrt(1 - sin2_t);
+  const double s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t), p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  return (s * s + p * p) / 2;
+}
+
 }  // namespace glimt
