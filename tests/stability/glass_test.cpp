@@ -33,21 +33,39 @@ Scene lossless_box() {
 }
 
 /// Every path brings `wanted`, or that over a power of 0.99 where it was long enough to play roulette, or 0 where it
-/// ended there; and the mean over pictures is `wanted`.
-void expect_lossless(const Scene& scene, double wanted = 1) {
+/// ended there. Returns the means of the pictures.
+std::vector<double> lossless_means(const Scene& scene, double wanted) {
   const CompiledScene compiled = compile(scene);
-  constexpr int samples = 32 * effort;
-  const auto rgb = trace_all(compiled, samples, Lanes::native);
-  std::vector<double> sums(static_cast<std::size_t>(samples));
+  constexpr std::size_t samples = 32 * effort;
+  const auto rgb = trace_all(compiled, static_cast<int>(samples), Lanes::native);
+  std::vector<double> means(samples);
   for (std::size_t i = 0; i < rgb.size(); i += 3) {
     const auto value = static_cast<double>(rgb[i]);
-    sums[i * static_cast<std::size_t>(samples) / rgb.size()] += value * 3 * samples / static_cast<double>(rgb.size());
-    if (value == 0) continue;
+    means[i * samples / rgb.size()] += value * 3 * samples / static_cast<double>(rgb.size());
     const double hits = std::log(value / wanted) / -std::log(0.99), whole = std::round(hits);
-    ASSERT_TRUE(std::isfinite(hits) && whole >= 0 && std::abs(hits - whole) < 5e-3)
-        << scene.name << ", " << replay(compiled, static_cast<std::ptrdiff_t>(i)) << ": " << value;
+    if (value != 0 && !(whole >= 0 && std::abs(hits - whole) < 5e-3)) {
+      ADD_FAILURE() << scene.name << ", " << replay(compiled, static_cast<std::ptrdiff_t>(i)) << ": " << value;
+      break;
+    }
   }
-  EXPECT_GT(likelihood(estimate(sums), wanted), alpha / 20) << scene.name << ": " << estimate(sums).mean;
+  return means;
+}
+
+void expect_lossless(const Scene& scene, double wanted = 1) {
+  const Estimate e = estimate(lossless_means(scene, wanted));
+  EXPECT_GT(likelihood(e, wanted), alpha / 20) << scene.name << ": " << e.mean << " +- " << e.error;
+}
+
+// Failure: a direction's length drifts. In a hollow mirror what it is off grows fourfold at every hit, until the hits
+// are kilometres outside; each path either finds the glowing ball or goes on until roulette ends it.
+TEST(Mirror, HollowOneHoldsItsPaths) {
+  Scene scene = lossless_box();
+  scene.name = "hollow mirror";
+  scene.polygons.clear();
+  scene.spheres = {{"hollow", "mirror", {0, 1, 0}, 7}, {"ball", "glow", {2, 0, 1}, 0.5}};
+  const Estimate e = estimate(lossless_means(scene, 1));
+  EXPECT_GT(e.mean, 0.01);
+  EXPECT_LT(e.mean, 1);
 }
 
 // Failure: glass of an index next to 1 or far from it shows, as an edge or a veil.

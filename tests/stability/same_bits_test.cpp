@@ -30,8 +30,9 @@ TEST(SameBits, ForAllSettingsThreadsAndLanes) {
         for (const Roulette roulette : {Roulette::throughput, Roulette::constant})
           for (const Caustics caustics : {Caustics::off, Caustics::on})
             for (const int max_depth : {0, 4}) {
-              Scene scene = RandomScene(++number % 25).scene;
-              scene.image = {37, 35};
+              if (++number % 8 != 0 && effort == 1) continue;
+              Scene scene = RandomScene(number % 25).scene;
+              scene.image = {34, 33};
               scene.render.light_sampling = light_sampling;
               scene.render.mis = mis;
               scene.render.sampler = sampler;
