@@ -116,7 +116,8 @@ class PathTracer {
     if (any(diffuse)) scatter_diffuse(s, at, diffuse, uv, direction);
     if (scene_.has_mirror) {
       const M mirror = equal(at.kind, I(kind_mirror));
-      direction = select(mirror, reflect(s.ray.direction, at.normal, at.cos_o), direction);
+      // A hollow mirror multiplies what the length is off at every hit.
+      direction = select(mirror, normalize(reflect(s.ray.direction, at.normal, at.cos_o)), direction);
     }
     if (scene_.has_glass && any(glass)) scatter_glass(s, at, glass, uv.u, direction);
     s.ray = {at.point, direction, at.surface};
@@ -194,7 +195,7 @@ class PathTracer {
 
   void add_emission(PathState<F>& s, const Shading<F>& at, F t, const M& light, const M& missed) const {
     M shines = light & at.front;
-    if (!mis_) shines = shines & s.sees_lamps;
+    shines = shines & (mis_ ? s.sees_lamps | (s.pdf_w > F(0.0f)) : s.sees_lamps);
     if (features.rare && scene_.has_glow) shines = shines | !light;
     shines = shines & !missed;
     if (!any(shines)) return;
@@ -204,7 +205,7 @@ class PathTracer {
       const M shared = light & !s.sees_lamps & less(I(-1), row);
       const F q = s.pdf_w * lamp_inverse_pdf(scene_, select(shared, row, I(0)), s.ray.origin, t, at.cos_o);
       const F m(static_cast<float>(scene_.settings.shadow_rays));
-      const F weight = fnma(m, reciprocal(q + m), F(1.0f));
+      const F weight = max(fnma(m, reciprocal(q + m), F(1.0f)), F(0.0f));
       emission = emission * select(shared, weight, F(1.0f));
     }
     s.radiance = fma(s.throughput, emission, s.radiance);
