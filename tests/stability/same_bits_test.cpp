@@ -42,10 +42,9 @@ TEST(SameBits, ForAllSettingsThreadsAndLanes) {
               const CompiledScene compiled = compile(scene);
               const auto one = sums(render(compiled, 2, {.threads = 1}));
               const std::string what = scene.name + ", combination " + std::to_string(number);
-              for (const int threads : {2, 4})
-                ASSERT_EQ(sums(render(compiled, 2, {.threads = threads})), one)
-                    << what << ", " << threads << " threads";
-              ASSERT_EQ(sums(render(compiled, 2, {.threads = 2, .lanes = Lanes::scalar})), one) << what << ", one lane";
+              ASSERT_EQ(sums(render(compiled, 2, {.threads = 4})), one) << what << ", four threads";
+              ASSERT_EQ(sums(render(compiled, 2, {.threads = 2, .lanes = Lanes::scalar})), one)
+                  << what << ", two threads, one lane";
             }
   EXPECT_EQ(number, 320u);
 }
