@@ -56,7 +56,7 @@ void expect_lossless(const Scene& scene, double wanted = 1) {
   EXPECT_GT(likelihood(e, wanted), alpha / 20) << scene.name << ": " << e.mean << " +- " << e.error;
 }
 
-// Failure: a direction's length drifts. In a hollow mirror what it is off grows fourfold at every hit, until the hits
+// Failure: a direction's length drifts. In a hollow mirror what it is off grows tenfold at every hit, until the hits
 // are kilometres outside; each path either finds the glowing ball or goes on until roulette ends it.
 TEST(Mirror, HollowOneHoldsItsPaths) {
   Scene scene = lossless_box();
