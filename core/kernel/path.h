@@ -66,7 +66,7 @@ class PathTracer {
       const M idle = less(s.path, I(0));
       if (any(idle)) {
         begin_paths(source, origin, queue, s, idle);
-        if (!any(less(I(-1), s.path))) return;
+        if (!any(less(I(-1), s.path))) return write_out();
       }
       const M ended = step(s) & less(I(-1), s.path);
       finish(s, ended);
@@ -135,23 +135,26 @@ class PathTracer {
   /// Where no limit of depth forbids another surface.
   M may_go_on(const PathState<F>& s) const { return less(s.depth, I(choices().max_depth - 1)); }
 
-  void finish(PathState<F>& s, const M& ended) const {
-    std::uint32_t lanes = bits(ended);
-    if (lanes == 0) return;
-    std::array<float, lane_count<F>> r, g, b;
-    std::array<std::int32_t, lane_count<F>> path;
-    store(s.radiance.x, r.data());
-    store(s.radiance.y, g.data());
-    store(s.radiance.z, b.data());
-    store(s.path, path.data());
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      float* out = rgb_ + 3 * static_cast<std::ptrdiff_t>(path[lane]);
-      out[0] = r[lane];
-      out[1] = g[lane];
-      out[2] = b[lane];
-    }
+  /// Notes what the paths that ended have gathered; without a loop over lanes, whose length could not be foretold.
+  void finish(PathState<F>& s, const M& ended) {
+    const auto place = static_cast<std::size_t>(done_);
+    compress<F, F>(s.radiance.x, ended, &done_r_[place]);
+    compress<F, F>(s.radiance.y, ended, &done_g_[place]);
+    compress<F, F>(s.radiance.z, ended, &done_b_[place]);
+    compress<I, F>(s.path, ended, &done_path_[place]);
+    done_ += std::popcount(bits(ended));
+    if (done_ >= done_capacity) write_out();
     s.path = select(ended, I(-1), s.path);
+  }
+
+  void write_out() {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(done_); ++i) {
+      float* out = rgb_ + 3 * static_cast<std::ptrdiff_t>(done_path_[i]);
+      out[0] = done_r_[i];
+      out[1] = done_g_[i];
+      out[2] = done_b_[i];
+    }
+    done_ = 0;
   }
 
   F value(Column column, const Shading<F>& at) const {
@@ -197,7 +200,7 @@ class PathTracer {
     if (!mis_) shines = shines & s.sees_lamps;
     if (features.rare && scene_.has_glow) shines = shines | !light;
     shines = shines & !missed;
-    if (!any(shines)) return;
+    if ((!features.small_table || mis_) && !any(shines)) return;
     V emission = select(shines, vector(Column::emission_r, at), V::all(F(0.0f)));
     if (mis_) {
       const I row = as_int(value(Column::lamp, at));
@@ -318,6 +321,10 @@ class PathTracer {
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
   static constexpr float largest_survival = 0.95f;   ///< below 1, so that light trapped in glass ends
 
+  static constexpr int done_capacity = 128;  ///< paths that have ended before their radiance is written out
+  template <class T>
+  using DoneArray = std::array<T, done_capacity + 2 * lane_count<F>>;
+
   static constexpr int small_stride = 32;  ///< of tables with up to 32 rows, so that columns are at fixed places
 
   const CompiledScene& scene_;
@@ -327,6 +334,10 @@ class PathTracer {
   std::int32_t roulette_begin_;  ///< depth of the first hit at which every path plays roulette
   bool next_event_;
   bool mis_;
+
+  int done_ = 0;
+  DoneArray<float> done_r_, done_g_, done_b_;
+  DoneArray<std::int32_t> done_path_;
 };
 
 /// Whether PathTracer's `usual` settings are the scene's.
