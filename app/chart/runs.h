@@ -23,7 +23,7 @@ struct Plan {
   int seeds = 5;
   int spp = 1 << 24;   ///< at most
   double seconds = 4;  ///< of rendering for each variant and seed, at most
-  Execution execution;
+  Execution execution{};
 };
 
 struct Measurement {

@@ -1,8 +1,12 @@
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "chart/runs.h"
+#include "cli/ablate.h"
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
 #include "cli/render_options.h"
@@ -18,7 +22,7 @@ struct ChartOptions : SceneOptions {
   fs::path out, csv, reference;
   std::vector<std::string> methods{"report", "naive", "path"};
   Plan plan;
-  bool quiet = false;
+  bool ablate = false, quiet = false;
 };
 
 /// "path:sampler=sobol" as the scene with these settings.
@@ -85,19 +89,14 @@ void print_outcomes(const std::vector<Variant>& variants, const std::vector<Meas
   }
 }
 
-int run_chart(const ChartOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
+void draw_chart(const ChartOptions& options, const Scene& scene, bool show) {
   Image reference;
   if (!options.reference.empty()) reference = read_reference(options.reference, scene);
   std::vector<Variant> variants = make_variants(options);
-
-  Plan plan = options.plan;
-  plan.execution = options.execution;
   std::vector<Measurement> measurements;
   {
-    const bool show = !options.quiet && isatty(STDERR_FILENO) != 0;
     ProgressBar bar;
-    measurements = measure(variants, plan, options.reference.empty() ? nullptr : &reference,
+    measurements = measure(variants, options.plan, options.reference.empty() ? nullptr : &reference,
                            [&bar, show](double done) { show ? bar.show(done) : void(); });
   }
   Chart chart = error_chart(variants, measurements);
@@ -105,6 +104,22 @@ int run_chart(const ChartOptions& options) {
   replace_file(options.out, svg_chart(chart));
   if (!options.csv.empty()) replace_file(options.csv, measurements_csv(variants, measurements));
   if (!options.quiet) print_outcomes(variants, measurements);
+}
+
+int run_chart(ChartOptions& options) {
+  if (options.out.empty() && !options.ablate) throw BadInput("--output is required: the chart to write, .svg");
+  if (options.out.empty() && !(options.csv.empty() && options.reference.empty()))
+    throw BadInput("--csv and --reference are of the chart, which --output names");
+  options.plan.execution = options.execution;
+  const Scene scene = read_scene(options.scene, options.overrides);
+  const bool show = !options.quiet && isatty(STDERR_FILENO) != 0;
+  if (!options.out.empty()) draw_chart(options, scene, show);
+  if (options.ablate) {
+    Plan plan = options.plan;
+    if (std::isfinite(plan.seconds)) plan.spp = scene.render.spp;
+    plan.spp = std::max(plan.spp, 2);
+    print_ablation(scene, plan, show);
+  }
   return 0;
 }
 
@@ -115,7 +130,6 @@ void add_chart_command(CLI::App& app, Run& run) {
   const auto options = std::make_shared<ChartOptions>();
   add_scene_options(*command, *options);
   add_file_option(*command, "-o,--output", options->out, "Chart to write, .svg")
-      ->required()
       ->check([](const std::string& file) {
         return fs::path(file).extension() == ".svg" ? "" : file + ": a chart's file ends in .svg";
       })
@@ -151,7 +165,9 @@ void add_chart_command(CLI::App& app, Run& run) {
       ->add_option("--reference", options->reference,
                    "Picture to measure against, .exr or .pfm; else the error is estimated")
       ->type_name("REF.exr");
-  command->add_flag("--quiet", options->quiet, "No progress and no table");
+  command->add_flag("--ablate", options->ablate,
+                    "Print what each piece of the model costs and buys on this scene, at --spp or the scene's spp");
+  command->add_flag("--quiet", options->quiet, "No progress and no table of efficiencies");
   command->callback([&run, options] { run = [options] { return run_chart(*options); }; });
 }
 

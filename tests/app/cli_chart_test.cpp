@@ -138,13 +138,25 @@ TEST_F(ChartCommand, RefusesWithAReason) {
   expect_refused({"--seeds", "0"}, {"--seeds"});
   EXPECT_TRUE(has(glimt({"chart", scene, "-o", "a.png"}).err, ".svg"));
   EXPECT_TRUE(has(glimt({"chart", scene, "-o", "none/a.svg"}).err, "does not exist"));
+  EXPECT_TRUE(has(glimt({"chart", scene}).err, "--output"));
   EXPECT_EQ(glimt({"chart", scene}).status, 2);
+  EXPECT_EQ(glimt({"chart", scene, "--ablate", "--csv", "a.csv"}).status, 2);
 }
 
 TEST_F(ChartCommand, TakesAReferenceOfItsSceneWhateverItsSettings) {
   ASSERT_EQ(render("r.exr", {"--spp", "4", "--sampler", "independent", "--shadow-rays", "2"}).status, 0);
   const Result result = chart({"--size", "24x16", "--spp", "2", "--seeds", "1", "--reference", "r.exr"});
   EXPECT_EQ(result.status, 0) << result.err;
+}
+
+TEST_F(ChartCommand, AblationPrintsATableAndNeedsNoChart) {
+  const Result result = glimt({"chart", scene, "--ablate", "--size", "24x24", "--spp", "4", "--seeds", "2"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const char* part : {"4 spp, 2 seeds", "verdict", "Schlick's Fresnel", "caustics off", "max depth 4",
+                           "shadow rays 30", "sampler sobol", "light sampling none", "roulette constant"})
+    EXPECT_TRUE(has(result.out, part)) << part << " in " << result.out;
+  EXPECT_FALSE(has(result.out, "Lambertian for")) << "nothing here is rough";
+  EXPECT_EQ(files(), 0U);
 }
 
 }  // namespace
