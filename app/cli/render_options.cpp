@@ -108,9 +108,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("WxH");
 
   CLI::Option* spp = command.get_option("--spp");
+  spp->each([&options](const std::string&) { options.overrides.emplace_back("render.target_error=0"); });
   CLI::Option* seconds = command.add_option("--seconds", options.seconds, "Render for this time instead of to --spp");
-  CLI::Option* error = command.add_option("--target-error", options.target_error,
-                                          "Render until the estimated relative mean squared error is this small");
+  CLI::Option* error = command.get_option("--target-error");
   seconds->check(check_positive)->type_name("S")->excludes(spp);
   error->check(check_positive)->type_name("RELMSE")->excludes(spp)->excludes(seconds);
 

@@ -13,7 +13,7 @@ namespace glimt {
 struct RenderOptions {
   std::filesystem::path scene, out, stats;
   std::vector<std::string> overrides;  ///< for read_scene; those of later options win
-  std::optional<double> seconds, target_error;
+  std::optional<double> seconds;
   Execution execution;
   bool quiet = false;
 };

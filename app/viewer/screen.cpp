@@ -100,7 +100,7 @@ void Screen::draw_status(const ViewerState& state, const Rect& place, const Plac
 
   std::string size;
   if (state.frame) {
-    size = std::to_string(state.frame->mean.width) + " \u00D7 " + std::to_string(state.frame->mean.height) + " at " +
+    size = std::to_string(state.frame->size.width) + " \u00D7 " + std::to_string(state.frame->size.height) + " at " +
            std::to_string(std::lround(picture.zoom * 100)) + " %";
   }
   const float width = ImGui::GetContentRegionAvail().x;

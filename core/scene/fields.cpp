@@ -30,8 +30,10 @@ constexpr auto choice(std::span<const std::string_view> names) {
 
 constexpr double max_radiance = 1e9;
 
-const std::array<Field<Settings>, 6> settings_table{{
-    {"spp", "samples per pixel to stop at", &Settings::spp, 1, 1 << 24},
+const std::array<Field<Settings>, 7> settings_table{{
+    {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
+    {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
+     &Settings::target_error, 0, 1e6},
     {"shadow_rays", "shadow rays per diffuse hit", &Settings::shadow_rays, 1, 64},
     {"seed", "seed of the random numbers", &Settings::seed, 0, 2147483647},
     {"method", "estimator: path samples the lamps, naive reaches them by chance",

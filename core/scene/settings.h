@@ -17,10 +17,13 @@ enum class Roulette {
   constant,    ///< 0.75 at every diffuse hit (the report); infinite variance where the reflectance is above 0.866
 };
 
+inline constexpr int max_spp = 1 << 24;
+
 /// Everything that says how a scene is rendered, and nothing of what is in it. Declared for files, command line and
 /// window in fields.cpp.
 struct Settings {
   int spp = 64;         ///< samples per pixel to stop at
+  double target_error = 0;  ///< relmse_estimate to stop at in place of `spp`; 0: stop at `spp`
   int shadow_rays = 1;  ///< M, shadow rays per diffuse hit
   int seed = 1;         ///< of the random numbers
   Method method = Method::path;
@@ -29,5 +32,12 @@ struct Settings {
 
   bool operator==(const Settings&) const = default;
 };
+
+/// The settings without where to stop: what decides the value of every sample.
+inline Settings without_target(Settings settings) {
+  settings.spp = Settings{}.spp;
+  settings.target_error = 0;
+  return settings;
+}
 
 }  // namespace glimt
