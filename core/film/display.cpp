@@ -97,9 +97,8 @@ std::map<std::string, std::string> display_texts(const Display& display) {
   std::map<std::string, std::string> texts;
   for (const auto& field : display_table) {
     const auto* choice = std::get_if<Choice<Display>>(&field.member);
-    texts[std::string(field.key)] =
-        choice ? std::string(choice->names[static_cast<std::size_t>(choice->get(display))])
-               : number_text(display.*std::get<double Display::*>(field.member));
+    texts[std::string(field.key)] = choice ? std::string(choice->names[static_cast<std::size_t>(choice->get(display))])
+                                           : number_text(display.*std::get<double Display::*>(field.member));
   }
   return texts;
 }
@@ -123,9 +122,7 @@ Display read_display(const std::map<std::string, std::string>& texts) {
   return display;
 }
 
-ColourScale colour_scale(View view) {
-  return view == View::samples ? ColourScale{1, 1 << 16} : ColourScale{0.001, 10};
-}
+ColourScale colour_scale(View view) { return view == View::samples ? ColourScale{1, 1 << 16} : ColourScale{0.001, 10}; }
 
 std::array<std::uint8_t, 3> scale_colour(float share) {
   const float at = share > 0 ? std::min(share, 1.0f) * (scale_stops.size() - 1) : 0;

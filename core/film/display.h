@@ -41,8 +41,8 @@ std::span<const Field<Display>> display_fields();
 std::map<std::string, std::string> display_texts(const Display& display);
 Display read_display(const std::map<std::string, std::string>& texts);
 
-/// 8-bit sRGB (IEC 61966-2-1), three bytes a pixel, row by row from the top, exactly rounded to nearest; values that are
-/// no numbers are black. The image holds what display.view names: radiance, standard errors, or numbers of samples.
+/// 8-bit sRGB (IEC 61966-2-1), three bytes a pixel, row by row from the top, exactly rounded to nearest; values that
+/// are no numbers are black. The image holds what display.view names: radiance, standard errors, or numbers of samples.
 std::vector<std::uint8_t> to_srgb8(const Image& image, const Display& display);
 
 /// The logarithmic colour scale of a view that is not the image: values at its two ends, and its colours, 8-bit sRGB,

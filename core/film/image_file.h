@@ -31,8 +31,7 @@ void check_writable(const std::filesystem::path& file);
 void write_image(const std::filesystem::path& file, const Film& film, const Display& display, const Metadata& metadata);
 
 /// The displayed picture of any image that the display's view may show. Throws ImageFileError.
-void write_png(const std::filesystem::path& file, const Image& image, const Display& display,
-               const Metadata& metadata);
+void write_png(const std::filesystem::path& file, const Image& image, const Display& display, const Metadata& metadata);
 
 /// As write_image writes it for .exr. Throws ImageFileError.
 void write_exr(const std::filesystem::path& file, const Image& radiance, const Image& standard_error,

@@ -135,6 +135,7 @@ bool Session::paused() const {
 void Session::set_error_wanted(bool wanted) {
   {
     const std::lock_guard lock(mutex_);
+    if (error_wanted_ == wanted) return;
     error_wanted_ = wanted;
   }
   wake_.notify_all();
@@ -216,8 +217,8 @@ void Session::render_some(const Job& job, Accumulation& now) {
   // The first image of a small scene is not cancelled, so that something is shown however fast edits come.
   const bool first_image = samples == 0 && !job.preview;
   const Clock::time_point start = Clock::now();
-  const bool done = render_pass(*job.compiled, now.film, now.pass, execution_, first_image ? nullptr : &cancel_,
-                                &now.progress);
+  const bool done =
+      render_pass(*job.compiled, now.film, now.pass, execution_, first_image ? nullptr : &cancel_, &now.progress);
   now.seconds += seconds_since(start);
   if (!done) return;
   now.pass = 0;

@@ -60,8 +60,7 @@ double hit(const Polygon& polygon, const Ray& ray) {
 double hit(const Mesh& mesh, const Ray& ray) {
   double nearest = none;
   const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
-  for (const auto& t : mesh.triangles)
-    nearest = std::min(nearest, hit(vertex(t[0]), vertex(t[1]), vertex(t[2]), ray));
+  for (const auto& t : mesh.triangles) nearest = std::min(nearest, hit(vertex(t[0]), vertex(t[1]), vertex(t[2]), ray));
   return nearest;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 TEST(Snapshot, NamesTheFolderThatCannotBeWritten) {
   try {
-    reserve_snapshot_file("/proc/nowhere", "picture");
+    reserve_snapshot_file("/proc/nowhere", "picture", "png");
     FAIL() << "nothing can be written there";
   } catch (const ImageFileError& error) {
     EXPECT_NE(std::string(error.what()).find("/proc/nowhere"), std::string::npos) << error.what();
@@ -28,12 +28,12 @@ TEST(Edit, SharedMaterialIsCopiedUnderAnUnusedName) {
   scene.materials = {Material{.name = "white"}, Material{.name = "ball"}};
   scene.spheres = {Sphere{.name = "ball", .material = "white"}, Sphere{.name = "other", .material = "white"}};
   Material glass{.name = "any", .type = MaterialType::glass};
-  set_sphere_material(scene, 0, glass);
+  set_material(scene, {ObjectKind::sphere, 0}, glass);
   ASSERT_EQ(scene.spheres[0].material, "ball-2") << "\"ball\" is taken";
   EXPECT_EQ(find_material(scene, "ball-2")->type, MaterialType::glass);
   EXPECT_EQ(find_material(scene, "white")->type, MaterialType::lambertian);
 
-  set_sphere_material(scene, 0, Material{.name = "any", .type = MaterialType::mirror});
+  set_material(scene, {ObjectKind::sphere, 0}, Material{.name = "any", .type = MaterialType::mirror});
   EXPECT_EQ(scene.materials.size(), 3U) << "its own by now";
   EXPECT_EQ(find_material(scene, "ball-2")->type, MaterialType::mirror);
 }
