@@ -25,9 +25,11 @@ const Material& material_of(const Scene& scene, const ObjectId& object) {
 void draw_list(const ViewerState& state, Edits& edits) {
   const auto all = objects_of(state.scene);
   const int rows = std::min(static_cast<int>(all.size()), most_rows);
-  const float height = static_cast<float>(rows) * ImGui::GetTextLineHeightWithSpacing() + style::scaled(8);
+  constexpr float padding = 5;
+  const float height = static_cast<float>(rows) * ImGui::GetTextLineHeightWithSpacing() -
+                       ImGui::GetStyle().ItemSpacing.y + style::scaled(2 * padding);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, style::well);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(8), style::scaled(5)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(8), style::scaled(padding)});
   ImGui::BeginChild("objects", {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   int& scrolled_to = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("scrolled to"), -1);
   for (const ObjectId& object : all) {

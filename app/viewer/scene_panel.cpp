@@ -3,6 +3,7 @@
 #include <string>
 
 #include "scene/compiled_scene.h"
+#include "viewer/labels.h"
 #include "viewer/panels.h"
 #include "viewer/style.h"
 #include "viewer/widgets.h"
@@ -14,7 +15,7 @@ void draw_lines(const char* title, const std::vector<std::string>& lines, ImU32 
   if (lines.empty()) return;
   heading(title);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  for (const std::string& line : lines) wrapped_text(line);
+  for (const std::string& line : lines) wrapped_text(sentence(line));
   ImGui::PopStyleColor();
 }
 

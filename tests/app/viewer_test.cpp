@@ -307,7 +307,7 @@ void save_screenshot(const Offscreen& window, const std::string& name, const Siz
   std::filesystem::create_directories(folder);
   window.save(std::filesystem::path(folder) /
               (name + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + "-" +
-               std::to_string(static_cast<int>(size.scale)) + ".png"));
+               std::to_string(static_cast<int>(size.scale) * size.ratio) + (size.ratio > 1 ? "r.png" : ".png")));
 }
 
 TEST_P(Fit, NothingOverlapsOrSticksOut) {
