@@ -30,7 +30,7 @@ bool edit_target(Settings& settings) {
 bool edit_error(const Field<Settings>& field, double& error) {
   begin_row("Error", std::string(field.doc) + "\nDrag, or Ctrl+click to type a number.");
   ImGui::PushID("error");
-  const bool changed = logarithmic_slider(error, least_error, most_error, "%.2g relMSE");
+  const bool changed = logarithmic_slider(error, least_error, most_error, " relMSE");
   note_widget("render." + std::string(field.key));
   ImGui::PopID();
   return changed;

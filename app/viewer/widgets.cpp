@@ -58,12 +58,20 @@ bool slider(int& value, int low, int high, bool logarithmic) {
   return ImGui::SliderInt("##value", &value, low, high, "%d", flags | ImGuiSliderFlags_AlwaysClamp);
 }
 
-bool logarithmic_slider(double& value, double low, double high, const char* format) {
+bool logarithmic_slider(double& value, double low, double high, const char* unit) {
   const Bar bar(0, std::log(std::max(value, low) / low) / std::log(high / low));
-  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format,
+  // As many digits as ImGui needs to tell the lowest value from 0.
+  const int digits = static_cast<int>(std::ceil(-std::log10(low)));
+  const std::string format = "%." + std::to_string(digits) + "g" + unit;
+  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format.c_str(),
                                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  if (changed) value = std::clamp(value, low, high);
-  return changed;
+  if (!changed) return false;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {  // by the mouse two digits are enough; others can be typed
+    const double place = std::pow(10, std::floor(std::log10(std::max(value, low))) - 1);
+    value = std::round(value / place) * place;
+  }
+  value = std::clamp(value, low, high);
+  return true;
 }
 
 void wrapped_text(const std::string& text) {

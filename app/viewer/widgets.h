@@ -31,8 +31,8 @@ void begin_row(const std::string& label, std::string_view tip);
 bool slider(double& value, double low, double high, const char* format);
 bool slider(int& value, int low, int high, bool logarithmic);
 
-/// The same for values of any size, each factor as wide as another.
-bool logarithmic_slider(double& value, double low, double high, const char* format);
+/// The same for values of any size, each factor as wide as another; low < 1.
+bool logarithmic_slider(double& value, double low, double high, const char* unit);
 
 /// Text that goes on in the next line where the column ends; muted: as hints are.
 void wrapped_text(const std::string& text);

@@ -148,6 +148,13 @@ class Offscreen {
     return {p[0], p[1], p[2]};
   }
 
+  /// A place in the image in window coordinates.
+  ImVec2 in_window(float x, float y) const {
+    const Rect r = widget("image");
+    const float zoom = r.width / static_cast<float>(state().scene.image.width);
+    return {r.x + x * zoom, r.y + y * zoom};
+  }
+
   /// Saves what is drawn as a PNG.
   void save(const std::filesystem::path& file) const {
     std::vector<std::uint8_t> rgb;
@@ -157,12 +164,6 @@ class Offscreen {
   }
 
  private:
-  ImVec2 in_window(float x, float y) const {
-    const Rect r = widget("image");
-    const float zoom = r.width / static_cast<float>(state().scene.image.width);
-    return {r.x + x * zoom, r.y + y * zoom};
-  }
-
   /// Lets go, and takes the mouse away, with it the tooltip that may stand over the picture.
   void release(int button = 0) {
     ImGuiIO& io = ImGui::GetIO();
