@@ -160,7 +160,7 @@ void Screen::draw_tabs(const ViewerState& state, Edits& edits) {
 }
 
 void Screen::draw_hint(const Rect& area) const {
-  const char* line = "Click an object to change it, drag to look around, scroll to come closer. F1 shows all keys.";
+  const char* line = "Click an object, drag to look around, scroll to come closer. F1 for more.";
   const std::string text = fit_text(line, area.width - style::scaled(48));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at{area.x + (area.width - size.x) / 2, area.y + area.height - size.y - style::scaled(24)};
@@ -191,6 +191,7 @@ void Screen::draw_status(const ViewerState& state, const Rect& place, const Plac
   ImGui::TextUnformatted(fit_text(line, width - size_width - style::scaled(16)).c_str());
   ImGui::PopStyleColor();
   note_widget("message");
+  note_widget("says." + line);
   if (!hint) tooltip(line);
   ImGui::SameLine(ImGui::GetCursorPosX() + width - size_width);
   ImGui::TextDisabled("%s", size.c_str());

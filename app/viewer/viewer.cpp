@@ -21,7 +21,7 @@ namespace glimt {
 namespace {
 
 /// ImGui needs some pictures after the last event until menus and tooltips stand.
-constexpr int pictures_to_settle = 3;
+constexpr int pictures_to_settle = 6;
 
 /// What has come in from the window since the last picture.
 struct Inbox {
@@ -154,7 +154,9 @@ void run(const std::filesystem::path& scene_file) {
   int unsettled = pictures_to_settle;
   while (!in.edits.quit) {
     wait(next_picture, unsettled == 0);
-    if (controller.poll()) unsettled = std::max(unsettled, 1);
+    const std::string said = controller.state().message.text;
+    if (controller.poll())
+      unsettled = std::max(unsettled, controller.state().message.text == said ? 1 : pictures_to_settle);
     if (std::exchange(in.touched, false)) unsettled = pictures_to_settle;
     if (window.hidden()) unsettled = 0;
     if (unsettled == 0) continue;

@@ -11,7 +11,8 @@
 /// Pieces that all panels are made of.
 namespace glimt {
 
-/// Where controls were drawn, by name: "pause", "render.spp", "object.type"; and "cut.TEXT" for text that did not fit.
+/// Where controls were drawn, by name: "pause", "render.spp", "object.type"; "says.TEXT" is the status line, and
+/// "cut.TEXT" is text that did not fit.
 using WidgetRects = std::map<std::string, Rect>;
 
 /// Notes the place of the control drawn last, where the screen asked for it.

@@ -51,7 +51,9 @@ Window::~Window() { glfwDestroyWindow(handle_); }
 bool Window::hidden() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(handle_, &width, &height);
-  return width == 0 || height == 0 || glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE;
+  // Not every window manager says that it has minimised a window that it takes away.
+  return width == 0 || height == 0 || glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE ||
+         glfwGetWindowAttrib(handle_, GLFW_VISIBLE) == GLFW_FALSE;
 }
 
 void Window::size(int& width, int& height) const {
