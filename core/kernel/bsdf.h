@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "math/vec.h"
+#include "math/warp.h"
 
 /// Reflection and refraction. Directions point away from the surface, normals to the side they are on, unless said
 /// otherwise.
@@ -24,6 +24,38 @@ F oren_nayar_factor(const OrenNayar<F>& m, const Vec3<F>& wi, const Vec3<F>& wo,
   const F s = max(dot(wi, wo) - cos_i * cos_o, F(0.0f));
   const F larger_cos = max(max(cos_i, cos_o), F(1e-6f));
   return fma(m.b, select(m.report, s, s * reciprocal(larger_cos)), m.a);
+}
+
+/// Share of the light that EON's single bounce sends back towards a direction at that cosine, for reflectance 1
+/// (Portsmouth, Kutz and Hill, "EON: a practical energy-preserving rough diffuse BRDF", JCGT 14(1), 2025: the exact
+/// directional albedo of its FON part). `a` = 1 / (1 + (1/2 - 2/(3 pi)) roughness).
+template <class F>
+F eon_albedo(F cos, F a, F roughness) {
+  const F sin = sqrt(max(fnma(cos, cos, F(1.0f)), F(0.0f)));
+  const F angle = F(0.5f * std::numbers::pi_v<float>) - arcsine(cos);
+  // sin/cos (1 - sin^3) without a quotient by the cosine.
+  const F grazing = sin * cos * fma(sin, F(1.0f) + sin, F(1.0f)) * reciprocal(F(1.0f) + sin);
+  const F g = fma(sin, fnma(sin, cos, angle), F(2.0f / 3.0f) * (grazing - sin));
+  return a * fma(roughness * F(std::numbers::inv_pi_v<float>), g, F(1.0f));
+}
+
+/// EON's parameters, per lane.
+template <class F>
+struct Eon {
+  F a, roughness;
+  Vec3<F> multiple;  ///< weight of the light reflected many times, by channel; see compile.cpp
+};
+
+/// The BRDF over rho / pi: the FON part, A (1 + r s / t) with s as above and t the larger cosine where s > 0, else 1;
+/// and the light that its single bounce loses, spread as (1 - E(wi)) (1 - E(wo)).
+template <class F>
+Vec3<F> eon_factor(const Eon<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
+  const F s = dot(wi, wo) - cos_i * cos_o;
+  const F larger_cos = max(max(cos_i, cos_o), F(1e-6f));
+  const F over_t = select(s > F(0.0f), s * reciprocal(larger_cos), s);
+  const F single = m.a * fma(m.roughness, over_t, F(1.0f));
+  const F lost = (F(1.0f) - eon_albedo(cos_i, m.a, m.roughness)) * (F(1.0f) - eon_albedo(cos_o, m.a, m.roughness));
+  return fma(m.multiple, lost, Vec3<F>::all(single));
 }
 
 /// Where `direction`, moving towards the surface at that cosine to its normal, goes on after a mirror.

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "kernel/kernels.h"
-#include "math/sampler.h"
+#include "kernel/random.h"
 #include "math/vec.h"
 
 namespace glimt {
@@ -20,9 +21,15 @@ struct PathQueue {
   using Array = std::array<T, capacity + lane_count<F>>;
 
   Array<float> direction_x, direction_y, direction_z;
-  Array<std::uint32_t> key_a, key_b;  ///< past the camera's dimensions
-  Array<std::int32_t> path;           ///< number of the path in its block; -1 where there is none
-  int next = capacity;                ///< first place not taken yet
+  Array<std::uint32_t> key_a, key_b, key_index;  ///< past the camera's dimensions
+  Array<std::int32_t> path;                      ///< number of the path in its block; -1 where there is none
+  int next = capacity;                           ///< first place not taken yet
+
+  void store_key(const PathKey<F>& key, int place) {
+    store(key.a, key_a.data() + place);
+    store(key.b, key_b.data() + place);
+    store(key.index, key_index.data() + place);
+  }
 };
 
 /// Where paths come from. Asked once for many paths, so the path loop is compiled once for all sources.
@@ -53,7 +60,7 @@ class CameraRays final : public PathSource<F> {
     const int kept = PathQueue<F>::capacity - q.next;
     auto to_front = [&](auto& a) { std::copy(a.begin() + q.next, a.begin() + q.next + kept, a.begin()); };
     to_front(q.direction_x), to_front(q.direction_y), to_front(q.direction_z);
-    to_front(q.key_a), to_front(q.key_b), to_front(q.path);
+    to_front(q.key_a), to_front(q.key_b), to_front(q.key_index), to_front(q.path);
     q.next = 0;
     int place = kept;
     for (; place + lane_count<F> <= PathQueue<F>::capacity && !exhausted(); place += lane_count<F>) generate(q, place);
@@ -80,17 +87,30 @@ class CameraRays final : public PathSource<F> {
     store(select(less(path, I(block_.paths())), path, I(-1)), q.path.data() + place);
     advance();
     const U pixel = as_uint(py * I(scene_.width) + px);
-    PathKey<F> key = path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), pixel, as_uint(sample));
-    const F x = to_float(px) + uniform<F>(key, static_cast<std::uint32_t>(Dimension::pixel_x));
-    const F y = to_float(py) + uniform<F>(key, static_cast<std::uint32_t>(Dimension::pixel_y));
+    const Sampler sampler = scene_.settings.sampler;
+    PathKey<F> key = first_key<F>(sampler, static_cast<std::uint32_t>(scene_.settings.seed), pixel, as_uint(sample));
+    const Point2<F> in_pixel =
+        sampler == Sampler::centres
+            ? sub_pixel_centre(sample)
+            : random_pair<F>(sampler, key, {I(0)}, static_cast<std::uint32_t>(Dimension::pixel_x));
+    const F x = to_float(px) + in_pixel.u;
+    const F y = to_float(py) + in_pixel.v;
     const Vec3<F> direction =
         normalize(fma(vec(scene_.camera.right), x, fma(vec(scene_.camera.down), y, vec(scene_.camera.corner))));
-    key = skip_dimensions<F>(key, static_cast<std::uint32_t>(Dimension::camera_count));
     store(direction.x, q.direction_x.data() + place);
     store(direction.y, q.direction_y.data() + place);
     store(direction.z, q.direction_z.data() + place);
-    store(key.a, q.key_a.data() + place);
-    store(key.b, q.key_b.data() + place);
+    q.store_key(skip_dimensions<F>(key, static_cast<std::uint32_t>(Dimension::camera_count)), place);
+  }
+
+  /// Sub-pixels in the order of samples, as many along each side as the samples to take need.
+  Point2<F> sub_pixel_centre(Int<F> sample) const {
+    const float side = std::ceil(std::sqrt(static_cast<float>(scene_.settings.spp)));
+    const auto mod = [](F a, float n) { return a - F(n) * to_float(to_int((a + F(0.5f)) * F(1 / n))); };
+    const F cell = mod(to_float(sample), side * side);
+    const F column = mod(cell, side);
+    const F row = to_float(to_int((cell + F(0.5f)) * F(1 / side)));
+    return {(column + F(0.5f)) * F(1 / side), (row + F(0.5f)) * F(1 / side)};
   }
 
   void advance() {
@@ -122,14 +142,14 @@ class GivenRay final : public PathSource<F> {
   bool exhausted() const override { return used_; }
 
   void refill(PathQueue<F>& q) override {
-    const PathKey<F> key = skip_dimensions<F>(
-        path_key<F>(static_cast<std::uint32_t>(scene_.settings.seed), Uint<F>(path_.pixel), Uint<F>(path_.sample)),
-        static_cast<std::uint32_t>(Dimension::camera_count));
+    const PathKey<F> key =
+        skip_dimensions<F>(first_key<F>(scene_.settings.sampler, static_cast<std::uint32_t>(scene_.settings.seed),
+                                        Uint<F>(path_.pixel), Uint<F>(path_.sample)),
+                           static_cast<std::uint32_t>(Dimension::camera_count));
     store(F(static_cast<float>(path_.direction[0])), q.direction_x.data());
     store(F(static_cast<float>(path_.direction[1])), q.direction_y.data());
     store(F(static_cast<float>(path_.direction[2])), q.direction_z.data());
-    store(key.a, q.key_a.data());
-    store(key.b, q.key_b.data());
+    q.store_key(key, 0);
     q.path.fill(-1);
     if (!used_) q.path[0] = 0;
     q.next = 0;

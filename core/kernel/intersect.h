@@ -3,8 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "math/vec.h"
-#include "scene/compiled_scene.h"
+#include "kernel/light.h"
 
 /// Rays against the compiled scene. Nothing here uses an epsilon; a ray never hits again what it leaves, because
 ///  - of a pair of room planes it takes the one it moves towards;
@@ -15,10 +14,11 @@ namespace glimt {
 
 /// What the kernel is compiled for. What a scene does not use costs nothing there: neither time nor registers.
 struct Features {
-  bool small_table;    ///< no more surfaces than lookup_small can hold
-  bool one_rectangle;  ///< the only lamp is one parallelogram
+  bool small_table;        ///< no more surfaces than lookup_small can hold
+  bool one_parallelogram;  ///< the only lamp
   bool oren_nayar;
-  bool rare;  ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room
+  bool rare;  ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON;
+              ///< settings other than the defaults
 };
 
 /// A ray in compiled space; `direction` is of unit length.
@@ -53,7 +53,6 @@ template <class F>
 struct SphereRoots {
   F middle;  ///< t of the point nearest to the centre
   F square;  ///< of half the chord; negative where the line misses
-  Vec3<F> to_centre;
 };
 
 template <class F>
@@ -62,7 +61,7 @@ SphereRoots<F> sphere_roots(const SphereShape& s, const Ray<F>& ray) {
   const F middle = dot(to_centre, ray.direction);
   const Vec3<F> miss = fnma(ray.direction, middle, to_centre);
   const F square = fnma(miss.x, miss.x, fnma(miss.y, miss.y, fnma(miss.z, miss.z, F(s.r2))));
-  return {middle, square, to_centre};
+  return {middle, square};
 }
 
 /// t where a ray from inside leaves a slab; a little below 0 where rounding has put the origin outside.
@@ -76,17 +75,15 @@ F slab_exit(const Slab& slab, const Ray<F>& ray, Mask<F>& towards_hi) {
   return fnma(inverse, from_middle, abs(inverse) * F(slab.half));
 }
 
-/// Roots on a glass sphere: the first at which the ray crosses the surface, not counting the point where it starts.
+/// The first root of a glass sphere after the point where the ray starts; NaN or not positive where there is none.
 template <class F>
-F glass_sphere_t(const SphereShape& s, const Ray<F>& ray, Mask<F>& valid) {
+F glass_sphere_t(const SphereShape& s, const Ray<F>& ray) {
   const SphereRoots<F> roots = sphere_roots(s, ray);
-  const F half_chord = sqrt(roots.square);
-  const Mask<F> starts_on = equal(ray.from, Int<F>(s.surface));
-  const Mask<F> inside = dot(roots.to_centre, roots.to_centre) < F(s.r2);
-  const F t = select(inside, roots.middle + half_chord, roots.middle - half_chord);
+  const F half_chord = positive_sqrt(roots.square);
+  const F near = roots.middle - half_chord;
   // A chord from the surface: its start is the root 0, so the other is twice the middle.
-  valid = (starts_on | (roots.square >= F(0.0f)));
-  return select(starts_on, roots.middle + roots.middle, t);
+  return select(equal(ray.from, Int<F>(s.surface)), roots.middle + roots.middle,
+                select(near > F(0.0f), near, roots.middle + half_chord));
 }
 
 /// Where a ray enters and leaves a convex solid, and through which planes.
@@ -203,9 +200,8 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
     take(hit, (roots.middle > F(0.0f)) & (t < hit.t), t, sphere.surface);
   }
   for (const SphereShape& sphere : scene.glass_spheres) {
-    Mask<F> valid;
-    const F t = glass_sphere_t(sphere, ray, valid);
-    take(hit, valid & (t > F(0.0f)) & (t < hit.t), t, sphere.surface);
+    const F t = glass_sphere_t(sphere, ray);
+    take(hit, (t > F(0.0f)) & (t < hit.t), t, sphere.surface);
   }
   if (!features.rare) return hit;
   for (const TriangleShape& triangle : scene.triangles) {
@@ -228,7 +224,7 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
   using namespace detail;
   Mask<F> hidden = F(1.0f) < F(0.0f);
   // A single piece of a lamp need not be tested at all, which spares the others the question whose they are.
-  const bool one = features.one_rectangle || scene.lamps.rows() == 1;
+  const bool one = features.one_parallelogram || scene.lamps.rows() == 1;
   const auto only = one ? std::bit_cast<std::int32_t>(scene.lamps[LampColumn::first_surface][0]) : -1;
   auto hide = [&](const Mask<F>& blocks, std::int32_t surface) {
     if (one) {
@@ -258,9 +254,8 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
     hide((roots.middle > F(0.0f)) & (beyond * beyond < roots.square), sphere.surface);
   }
   for (const SphereShape& sphere : scene.glass_spheres) {
-    Mask<F> valid;
-    const F t = glass_sphere_t(sphere, ray, valid);
-    hidden = hidden | (valid & (t > F(0.0f)) & (t < distance));
+    const F t = glass_sphere_t(sphere, ray);
+    hidden = hidden | ((t > F(0.0f)) & (t < distance));
   }
   if (!features.rare) return hidden;
   for (const TriangleShape& triangle : scene.triangles) {

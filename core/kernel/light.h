@@ -15,6 +15,7 @@ struct LampSample {
   F distance;                          ///< metres
   Vec3<F> weight;                      ///< times `inverse_pdf`: radiance over pdf_w, the choice of the lamp counted in
   F inverse_pdf;                       ///< 0 where the lamp shows its back
+  F inverse_choice;                    ///< 1 / pdf_w = inverse_pdf * inverse_choice
   Int<F> first_surface, last_surface;  ///< the lamp's own, which cannot hide it
 };
 
@@ -70,7 +71,83 @@ LampSample<F> sample_flat_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from,
   const Vec3<F> direction = way * inverse;
   const F minus_cos_lamp = dot(direction, lamp.vector(LampColumn::normal_x));
   const F inverse_pdf = max(F(0.0f) - minus_cos_lamp, F(0.0f)) * (inverse * inverse);
-  return {direction, distance2 * inverse, lamp.vector(LampColumn::weight_r), inverse_pdf, Int<F>(0), Int<F>(0)};
+  return {direction,
+          distance2 * inverse,
+          lamp.vector(LampColumn::weight_r),
+          inverse_pdf,
+          lamp[LampColumn::inverse_choice],
+          Int<F>(0),
+          Int<F>(0)};
+}
+
+/// How a point in front of a rectangle sees it: Urena, Fajardo and King, "An area-preserving parametrization for
+/// spherical rectangles" (EGSR 2013), whose names these are. The local frame has z along the lamp's normal.
+template <class F>
+struct RectangleView {
+  F x0, x1, y0, y1, z0;  ///< edges of the rectangle, metres; z0 < 0 in front of it
+  F b0, b1;              ///< z of the normals of the planes through y0 and y1
+  F start;               ///< pi - k
+  F solid_angle;
+  Mask<F> small;  ///< too small for its solid angle to be a sum of angles without loss: sampled by area
+};
+
+template <class F, bool one>
+RectangleView<F> view_rectangle(const LampRow<F, one>& lamp, const Vec3<F>& from) {
+  const Vec3<F> d = lamp.vector(LampColumn::p_x) - from;
+  const F l1 = lamp[LampColumn::length_1], l2 = lamp[LampColumn::length_2];
+  RectangleView<F> r;
+  r.x0 = dot(d, lamp.vector(LampColumn::e1_x)) * reciprocal(l1);
+  r.y0 = dot(d, lamp.vector(LampColumn::e2_x)) * reciprocal(l2);
+  r.x1 = r.x0 + l1;
+  r.y1 = r.y0 + l2;
+  r.z0 = min(dot(d, lamp.vector(LampColumn::normal_x)), F(0.0f));
+  const F z2 = max(r.z0 * r.z0, F(1e-30f));
+  const auto normal_z = [&](F edge) { return edge * inverse_sqrt(fma(edge, edge, z2)); };
+  r.b0 = F(0.0f) - normal_z(r.y0);
+  r.b1 = normal_z(r.y1);
+  const F n1 = normal_z(r.x1), n3 = F(0.0f) - normal_z(r.x0);
+  // The paper's angles are pi/2 + these, so that their sum needs no 2 pi taken off.
+  const F g0 = arcsine(r.b0 * n1), g1 = arcsine(n1 * r.b1), g2 = arcsine(r.b1 * n3), g3 = arcsine(n3 * r.b0);
+  r.start = g2 + g3;
+  r.solid_angle = g0 + g1 + r.start;
+  r.small = r.solid_angle < F(0.02f);
+  return r;
+}
+
+/// A point of a rectangle, uniform in the solid angle it is seen under; by area where that is small.
+template <class F, bool one>
+LampSample<F> sample_rectangle(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
+  const RectangleView<F> r = view_rectangle(lamp, from);
+  const F l1 = lamp[LampColumn::length_1], l2 = lamp[LampColumn::length_2];
+  // x: the paper's f_u is minus (cos(a) b0 + b1) / sin(a) with a = pi - a_u, multiplied out.
+  const F a = fnma(u, r.solid_angle, r.start);
+  const SinCos<F> turned = sincos_turns(fma(a, F(0.5f * std::numbers::inv_pi_v<float>), F(0.5f)));  // of a + pi
+  const F top = fma(turned.cos, r.b0, F(0.0f) - r.b1);
+  const F z2 = r.z0 * r.z0;
+  const F square = fnma(turned.sin * turned.sin, z2 * reciprocal(fma(r.y0, r.y0, max(z2, F(1e-30f)))), top * top);
+  const F slope = turned.sin * inverse_sqrt(max(square, F(1e-30f)));
+  const F x = min(max(select(top < F(0.0f), F(0.0f) - slope, slope) * r.z0, r.x0), r.x1);
+  // y
+  const F d2 = fma(x, x, z2);
+  const F h0 = r.y0 * inverse_sqrt(max(fma(r.y0, r.y0, d2), F(1e-30f)));
+  const F h1 = r.y1 * inverse_sqrt(max(fma(r.y1, r.y1, d2), F(1e-30f)));
+  const F h = fma(v, h1 - h0, h0);
+  const F rest = max(fnma(h, h, F(1.0f)), F(1e-12f));
+  const F y = min(max(h * sqrt(d2 * reciprocal(rest)), r.y0), r.y1);
+
+  const F s = select(r.small, u, (x - r.x0) * reciprocal(l1));
+  const F t = select(r.small, v, (y - r.y0) * reciprocal(l2));
+  LampSample<F> sample = sample_flat_lamp(lamp, from, s, t, false);
+  const F area = l1 * l2;
+  const F by_area = sample.inverse_pdf * area;
+  sample.inverse_pdf = select(r.small, by_area, select(by_area > F(0.0f), r.solid_angle, F(0.0f)));
+  return sample;
+}
+
+/// 1 - cos of half the angle that the cone of a sphere has; without cancellation for small spheres.
+template <class F>
+F cone_one_minus_cos(F sin2) {
+  return sin2 * reciprocal(F(1.0f) + sqrt(F(1.0f) - sin2));
 }
 
 /// A direction in the cone in which a sphere is seen, uniform by solid angle: pdf_w = 1 / (2 pi (1 - cos(theta_max))).
@@ -84,8 +161,7 @@ LampSample<F> sample_sphere_lamp(const LampRow<F, one>& lamp, const Vec3<F>& fro
   const Vec3<F> axis = to_centre * inverse_d;
   const F sin_max = radius * inverse_d;
   const F sin2_max = min(sin_max * sin_max, F(1.0f));
-  // 1 - cos without cancellation for small lamps.
-  const F one_minus_cos_max = sin2_max * reciprocal(F(1.0f) + sqrt(F(1.0f) - sin2_max));
+  const F one_minus_cos_max = cone_one_minus_cos(sin2_max);
   const F one_minus_cos = u * one_minus_cos_max;
   const F cos = F(1.0f) - one_minus_cos;
   const F sin2 = one_minus_cos * (F(1.0f) + cos);
@@ -101,34 +177,88 @@ LampSample<F> sample_sphere_lamp(const LampRow<F, one>& lamp, const Vec3<F>& fro
   const F half_chord = sqrt(radius * radius - d2 * sin2);
   const F inverse_pdf = select(d > radius, F(2.0f * std::numbers::pi_v<float>) * one_minus_cos_max, F(0.0f));
   const F distance = max(fma(d, cos, F(0.0f) - half_chord), F(0.0f));
-  return {direction, distance, lamp.vector(LampColumn::weight_r), inverse_pdf, Int<F>(0), Int<F>(0)};
+  return {direction, distance, lamp.vector(LampColumn::weight_r), inverse_pdf, lamp[LampColumn::inverse_choice],
+          Int<F>(0), Int<F>(0)};
+}
+
+/// A point of a sphere, uniform by area: half of them are on its far side.
+template <class F, bool one>
+LampSample<F> sample_sphere_by_area(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
+  const F radius = lamp[LampColumn::e1_x];
+  const Vec3<F> normal = uniform_sphere(u, v);
+  const Vec3<F> way = fma(normal, radius, lamp.vector(LampColumn::p_x) - from);
+  const F distance2 = dot(way, way);
+  const F inverse = inverse_sqrt(distance2);
+  const Vec3<F> direction = way * inverse;
+  const F inverse_pdf = max(F(0.0f) - dot(direction, normal), F(0.0f)) * (inverse * inverse);
+  return {direction,
+          distance2 * inverse,
+          lamp.vector(LampColumn::weight_r),
+          inverse_pdf,
+          lamp[LampColumn::inverse_choice],
+          Int<F>(0),
+          Int<F>(0)};
 }
 
 /// The table's row decides how the lamp is sampled.
 template <class F, bool one>
 LampSample<F> sample_row(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
   const auto has = [&](LampShape s) { return lamp.scene.has_lamp_shape[static_cast<std::size_t>(s)]; };
-  const bool flat = has(LampShape::parallelogram) || has(LampShape::triangle);
-  LampSample<F> sample =
-      flat ? sample_flat_lamp(lamp, from, u, v, has(LampShape::triangle)) : sample_sphere_lamp(lamp, from, u, v);
-  if (flat && has(LampShape::sphere)) {
-    const LampSample<F> on_sphere = sample_sphere_lamp(lamp, from, u, v);
-    const Mask<F> sphere = equal(as_int(lamp[LampColumn::shape]), Int<F>(static_cast<int>(LampShape::sphere)));
-    sample.direction = select(sphere, on_sphere.direction, sample.direction);
-    sample.distance = select(sphere, on_sphere.distance, sample.distance);
-    sample.inverse_pdf = select(sphere, on_sphere.inverse_pdf, sample.inverse_pdf);
+  const Int<F> shape = as_int(lamp[LampColumn::shape]);
+  LampSample<F> sample{};
+  bool first = true;
+  const auto take = [&](const LampSample<F>& other, const Mask<F>& mask) {
+    sample.direction = first ? other.direction : select(mask, other.direction, sample.direction);
+    sample.distance = first ? other.distance : select(mask, other.distance, sample.distance);
+    sample.inverse_pdf = first ? other.inverse_pdf : select(mask, other.inverse_pdf, sample.inverse_pdf);
+    first = false;
+  };
+  const auto is = [&](LampShape s) { return equal(shape, Int<F>(static_cast<int>(s))); };
+  if (has(LampShape::parallelogram) || has(LampShape::triangle)) {
+    const bool triangles = has(LampShape::triangle);
+    take(sample_flat_lamp(lamp, from, u, v, triangles), is(LampShape::parallelogram) | is(LampShape::triangle));
   }
+  if (has(LampShape::rectangle)) take(sample_rectangle(lamp, from, u, v), is(LampShape::rectangle));
+  if (has(LampShape::sphere)) take(sample_sphere_lamp(lamp, from, u, v), is(LampShape::sphere));
+  if (has(LampShape::sphere_by_area)) take(sample_sphere_by_area(lamp, from, u, v), is(LampShape::sphere_by_area));
+  sample.weight = lamp.vector(LampColumn::weight_r);
+  sample.inverse_choice = lamp[LampColumn::inverse_choice];
   sample.first_surface = as_int(lamp[LampColumn::first_surface]);
   sample.last_surface = as_int(lamp[LampColumn::last_surface]);
   return sample;
 }
 
-/// A direction towards a lamp. `choice` is used only where there are several; `one_rectangle`: the only lamp is a
-/// parallelogram.
-template <class F, bool one_rectangle>
+/// 1 / pdf_w with which light sampling from `from` chooses a point that it can choose: one of the lamp piece in `row`,
+/// at that distance, seen by the lamp at that cosine.
+template <class F>
+F lamp_inverse_pdf(const CompiledScene& scene, const Int<F>& row, const Vec3<F>& from, F distance, F cos_lamp) {
+  const LampRow<F, false> lamp{scene, row};
+  const auto has = [&](LampShape s) { return scene.has_lamp_shape[static_cast<std::size_t>(s)]; };
+  const Int<F> shape = as_int(lamp[LampColumn::shape]);
+  F inverse_pdf = cos_lamp * reciprocal(distance * distance);  // by area
+  if (has(LampShape::rectangle)) {
+    const RectangleView<F> r = view_rectangle(lamp, from);
+    const F area = lamp[LampColumn::length_1] * lamp[LampColumn::length_2];
+    inverse_pdf = select(equal(shape, Int<F>(static_cast<int>(LampShape::rectangle))),
+                         select(r.small, inverse_pdf * area, r.solid_angle), inverse_pdf);
+  }
+  if (has(LampShape::sphere)) {
+    const Vec3<F> to_centre = lamp.vector(LampColumn::p_x) - from;
+    const F radius = lamp[LampColumn::e1_x];
+    const F sin2 = min(radius * radius * reciprocal(dot(to_centre, to_centre)), F(1.0f));
+    inverse_pdf = select(equal(shape, Int<F>(static_cast<int>(LampShape::sphere))),
+                         F(2.0f * std::numbers::pi_v<float>) * cone_one_minus_cos(sin2), inverse_pdf);
+  }
+  return inverse_pdf * lamp[LampColumn::inverse_choice];
+}
+
+/// A direction towards a lamp. `choice` is used only where there are several; `one_parallelogram`: it is the only lamp,
+/// sampled by area.
+template <class F, bool one_parallelogram>
 LampSample<F> sample_lamp(const CompiledScene& scene, const Vec3<F>& from, F choice, F u, F v) {
-  if constexpr (one_rectangle) return sample_flat_lamp(LampRow<F, true>{scene, Int<F>(0)}, from, u, v, false);
-  if (scene.lamps.rows() == 1) return sample_row(LampRow<F, true>{scene, Int<F>(0)}, from, u, v);
+  const LampRow<F, true> first{scene, Int<F>(0)};
+  if constexpr (one_parallelogram) return sample_flat_lamp(first, from, u, v, false);
+  if (scene.lamps.rows() == 1) return sample_row(first, from, u, v);
   return sample_row(LampRow<F, false>{scene, choose_lamp(scene, choice)}, from, u, v);
 }
 

@@ -5,7 +5,6 @@
 #include "kernel/bsdf.h"
 #include "kernel/camera.h"
 #include "kernel/intersect.h"
-#include "kernel/light.h"
 #include "kernel/trace.h"
 
 /// The path loop: one path a lane, no recursion. A lane whose path has ended takes the next path at once.
@@ -15,13 +14,15 @@ namespace glimt {
 template <class F>
 struct PathState {
   Ray<F> ray;
-  Vec3<F> throughput;  ///< product of bsdf cos / pdf so far, radiance to radiance
-  Vec3<F> radiance;    ///< gathered so far, W/(m^2 sr)
-  F ior2;              ///< square of the refractive index here over that at the camera; 1 without glass
-  Mask<F> sees_lamps;  ///< the last surface was specular (or the camera): a lamp that is hit counts
-  PathKey<F> key;      ///< its dimension 0 is the first of the next hit
-  Int<F> depth;        ///< surfaces hit before
-  Int<F> path;         ///< number in the block, or -1 for a lane without work
+  Vec3<F> throughput;   ///< product of bsdf cos / pdf so far, radiance to radiance
+  Vec3<F> radiance;     ///< gathered so far, W/(m^2 sr)
+  F ior2;               ///< square of the refractive index here over that at the camera; 1 without glass
+  Mask<F> sees_lamps;   ///< a lamp that is hit counts in full
+  Mask<F> had_diffuse;  ///< the path has met a diffuse surface
+  F pdf_w;              ///< with which a diffuse surface chose the direction, if it was the last; else 0
+  PathKey<F> key;       ///< its dimension 0 is the first of the next hit
+  Int<F> depth;         ///< surfaces hit before
+  Int<F> path;          ///< number in the block, or -1 for a lane without work
 };
 
 /// What a hit point looks like.
@@ -49,7 +50,8 @@ class PathTracer {
         rgb_(rgb),
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
         roulette_begin_(scene.settings.roulette == Roulette::constant ? trapped_depth : scene.settings.roulette_depth),
-        next_event_(scene.settings.method == Method::path && scene.lamps.rows() > 0) {}
+        next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0),
+        mis_(next_event_ && choices().mis == Mis::on) {}
 
   /// Traces all paths of the source and writes each one's radiance to rgb[3 * its number].
   void run(PathSource<F>& source) {
@@ -57,13 +59,14 @@ class PathTracer {
     PathState<F> s{};
     s.path = I(-1);
     s.ior2 = F(1.0f);
+    s.sees_lamps = s.had_diffuse = F(1.0f) < F(0.0f);
     const V origin = source.origin();
     s.ray = {origin, {F(0.0f), F(0.0f), F(1.0f)}, I(-1)};
     for (;;) {
       const M idle = less(s.path, I(0));
       if (any(idle)) {
         begin_paths(source, origin, queue, s, idle);
-        if (!any(less(I(-1), s.path))) return;
+        if (!any(less(I(-1), s.path))) return write_out();
       }
       const M ended = step(s) & less(I(-1), s.path);
       finish(s, ended);
@@ -83,12 +86,15 @@ class PathTracer {
                        expand<F, F>(s.ray.direction.y, idle, &q.direction_y[place]),
                        expand<F, F>(s.ray.direction.z, idle, &q.direction_z[place])};
     s.ray.from = select(idle, I(-1), s.ray.from);
-    s.key = {expand<U, F>(s.key.a, idle, &q.key_a[place]), expand<U, F>(s.key.b, idle, &q.key_b[place])};
+    s.key.a = expand<U, F>(s.key.a, idle, &q.key_a[place]);
+    s.key.b = expand<U, F>(s.key.b, idle, &q.key_b[place]);
+    s.key.index = expand<U, F>(s.key.index, idle, &q.key_index[place]);
     s.path = expand<I, F>(s.path, idle, &q.path[place]);
     s.throughput = select(idle, V::all(F(1.0f)), s.throughput);
     s.radiance = select(idle, V::all(F(0.0f)), s.radiance);
     if (scene_.has_glass) s.ior2 = select(idle, F(1.0f), s.ior2);
     s.sees_lamps = s.sees_lamps | idle;
+    s.had_diffuse = s.had_diffuse & !idle;
     s.depth = select(idle, I(0), s.depth);
     q.next += wanted;
   }
@@ -101,19 +107,24 @@ class PathTracer {
     const M light = equal(at.kind, I(kind_light));
     M ended = missed | light;
 
-    add_emission(s, at, light, missed);
+    add_emission(s, at, hit.t, light, missed);
     const M diffuse = equal(at.kind, I(kind_diffuse)) & !missed;
     const M glass = equal(at.kind, I(kind_glass)) & !missed;
     s.throughput = s.throughput * reflectance(at);
     V direction = s.ray.direction;
-    if (any(diffuse)) scatter_diffuse(s, at, diffuse, direction);
+    const Point2<F> uv = pair(s, HitDimension::direction_u);
+    if (any(diffuse)) scatter_diffuse(s, at, diffuse, uv, direction);
     if (scene_.has_mirror) {
       const M mirror = equal(at.kind, I(kind_mirror));
       direction = select(mirror, reflect(s.ray.direction, at.normal, at.cos_o), direction);
     }
-    if (scene_.has_glass && any(glass)) scatter_glass(s, at, glass, direction);
+    if (scene_.has_glass && any(glass)) scatter_glass(s, at, glass, uv.u, direction);
     s.ray = {at.point, direction, at.surface};
     s.sees_lamps = next_event_ ? !diffuse : M(F(0.0f) < F(1.0f));
+    if (mis_) s.pdf_w = select(diffuse, s.pdf_w, F(0.0f));
+    if (choices().caustics == Caustics::off) s.sees_lamps = s.sees_lamps & (diffuse | !s.had_diffuse);
+    s.had_diffuse = s.had_diffuse | diffuse;
+    if (choices().max_depth > 0) ended = ended | !may_go_on(s);
     const F brightest = max_component(s.throughput);
     ended = ended | !(brightest > F(0.0f)) | roulette(s, brightest, diffuse);
     s.key = skip_dimensions<F>(s.key, hit_block_);
@@ -121,23 +132,29 @@ class PathTracer {
     return ended;
   }
 
-  void finish(PathState<F>& s, const M& ended) const {
-    std::uint32_t lanes = bits(ended);
-    if (lanes == 0) return;
-    std::array<float, lane_count<F>> r, g, b;
-    std::array<std::int32_t, lane_count<F>> path;
-    store(s.radiance.x, r.data());
-    store(s.radiance.y, g.data());
-    store(s.radiance.z, b.data());
-    store(s.path, path.data());
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      float* out = rgb_ + 3 * static_cast<std::ptrdiff_t>(path[lane]);
-      out[0] = r[lane];
-      out[1] = g[lane];
-      out[2] = b[lane];
-    }
+  /// Where no limit of depth forbids another surface.
+  M may_go_on(const PathState<F>& s) const { return less(s.depth, I(choices().max_depth - 1)); }
+
+  /// Notes what the paths that ended have gathered; without a loop over lanes, whose length could not be foretold.
+  void finish(PathState<F>& s, const M& ended) {
+    const auto place = static_cast<std::size_t>(done_);
+    compress<F, F>(s.radiance.x, ended, &done_r_[place]);
+    compress<F, F>(s.radiance.y, ended, &done_g_[place]);
+    compress<F, F>(s.radiance.z, ended, &done_b_[place]);
+    compress<I, F>(s.path, ended, &done_path_[place]);
+    done_ += std::popcount(bits(ended));
+    if (done_ >= done_capacity) write_out();
     s.path = select(ended, I(-1), s.path);
+  }
+
+  void write_out() {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(done_); ++i) {
+      float* out = rgb_ + 3 * static_cast<std::ptrdiff_t>(done_path_[i]);
+      out[0] = done_r_[i];
+      out[1] = done_g_[i];
+      out[2] = done_b_[i];
+    }
+    done_ = 0;
   }
 
   F value(Column column, const Shading<F>& at) const {
@@ -151,6 +168,16 @@ class PathTracer {
     const int c = static_cast<int>(first);
     return {value(first, at), value(static_cast<Column>(c + 1), at), value(static_cast<Column>(c + 2), at)};
   }
+  /// Random numbers of a hit; of several, number `k` of `count`.
+  Point2<F> pair(const PathState<F>& s, HitDimension dimension, int count = 1, int k = 0) const {
+    return random_pair<F>(choices().sampler, s.key, LatticePlace<F>::of(s.depth + I(1)),
+                          static_cast<std::uint32_t>(dimension), count, k);
+  }
+  F number(const PathState<F>& s, HitDimension dimension, int count = 1, int k = 0) const {
+    return random_number<F>(choices().sampler, s.key, LatticePlace<F>::of(s.depth + I(1)),
+                            static_cast<std::uint32_t>(dimension), count, k);
+  }
+
   V reflectance(const Shading<F>& at) const { return vector(Column::reflectance_r, at); }
 
   Shading<F> shade(const Ray<F>& ray, const Hit<F>& hit) const {
@@ -168,12 +195,21 @@ class PathTracer {
     return at;
   }
 
-  void add_emission(PathState<F>& s, const Shading<F>& at, const M& light, const M& missed) const {
-    M shines = light & at.front & s.sees_lamps;
+  void add_emission(PathState<F>& s, const Shading<F>& at, F t, const M& light, const M& missed) const {
+    M shines = light & at.front;
+    if (!mis_) shines = shines & s.sees_lamps;
     if (features.rare && scene_.has_glow) shines = shines | !light;
     shines = shines & !missed;
-    if (!any(shines)) return;
-    const V emission = select(shines, vector(Column::emission_r, at), V::all(F(0.0f)));
+    if ((!features.small_table || mis_) && !any(shines)) return;
+    V emission = select(shines, vector(Column::emission_r, at), V::all(F(0.0f)));
+    if (mis_) {
+      const I row = as_int(value(Column::lamp, at));
+      const M shared = light & !s.sees_lamps & less(I(-1), row);
+      const F q = s.pdf_w * lamp_inverse_pdf(scene_, select(shared, row, I(0)), s.ray.origin, t, at.cos_o);
+      const F m(static_cast<float>(scene_.settings.shadow_rays));
+      const F weight = fnma(m, reciprocal(q + m), F(1.0f));
+      emission = emission * select(shared, weight, F(1.0f));
+    }
     s.radiance = fma(s.throughput, emission, s.radiance);
   }
 
@@ -182,53 +218,78 @@ class PathTracer {
             value(Column::oren_nayar_report, at) > F(0.5f)};
   }
 
-  F random(const PathState<F>& s, HitDimension dimension, std::uint32_t offset = 0) const {
-    return uniform<F>(s.key, static_cast<std::uint32_t>(dimension) + offset);
+  bool has_oren_nayar() const { return features.rare ? scene_.has_oren_nayar : features.oren_nayar; }
+  bool has_eon() const { return features.rare && scene_.has_eon; }
+
+  /// The BRDF over rho / pi.
+  V diffuse_factor(const Shading<F>& at, const V& wi, const V& wo, F cos_i) const {
+    const V rough = V::all(oren_nayar_factor(oren_nayar(at), wi, wo, cos_i, at.cos_o));
+    if (!has_eon()) return rough;
+    const Eon<F> eon{value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
+                     vector(Column::eon_multiple_r, at)};
+    return select(value(Column::eon, at) > F(0.5f), eon_factor(eon, wi, wo, cos_i, at.cos_o), rough);
   }
 
   /// Next-event estimation, then a direction in proportion to the cosine. The throughput has the reflectance already.
-  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, V& direction) const {
+  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, const Point2<F>& uv,
+                       V& direction) const {
     const V wo = s.ray.direction * F(-1.0f);
-    OrenNayar<F> rough{F(1.0f), F(0.0f), F(1.0f) < F(0.0f)};
-    if (features.oren_nayar) rough = oren_nayar(at);
     if (next_event_) {
-      const F scale(std::numbers::inv_pi_v<float> / static_cast<float>(scene_.settings.shadow_rays));
-      V direct = V::all(F(0.0f));
-      for (int k = 0; k < scene_.settings.shadow_rays; ++k) {
-        const auto first = static_cast<std::uint32_t>(k) * shadow_dimensions;
-        const LampSample<F> lamp = sample_lamp<F, features.one_rectangle>(
-            scene_, at.point, random(s, HitDimension::shadow, first), random(s, HitDimension::shadow, first + 1),
-            random(s, HitDimension::shadow, first + 2));
-        const F cos_i = dot(lamp.direction, at.normal);
-        const F weight = cos_i * (lamp.inverse_pdf * scale);
-        const M lit = diffuse & (cos_i > F(0.0f)) & (lamp.inverse_pdf > F(0.0f));
-        if (!any(lit)) continue;
-        const Ray<F> shadow{at.point, lamp.direction, at.surface};
-        const M seen =
-            lit & !occluded<F, features>(scene_, shadow, lamp.distance, lamp.first_surface, lamp.last_surface);
-        F factor = select(seen, weight, F(0.0f));
-        if (features.oren_nayar) factor = factor * oren_nayar_factor(rough, lamp.direction, wo, cos_i, at.cos_o);
-        direct = fma(lamp.weight, factor, direct);
-      }
-      s.radiance = fma(s.throughput, direct, s.radiance);
+      const M asks = choices().max_depth > 0 ? diffuse & may_go_on(s) : diffuse;
+      if (any(asks)) s.radiance = fma(s.throughput, direct_light(s, at, asks, wo), s.radiance);
     }
-    const V wi =
-        cosine_hemisphere(at.normal, random(s, HitDimension::direction_u), random(s, HitDimension::direction_v));
-    if (features.oren_nayar) {
-      const F factor = oren_nayar_factor(rough, wi, wo, dot(wi, at.normal), at.cos_o);
-      s.throughput = s.throughput * select(diffuse, factor, F(1.0f));
+    const V wi = cosine_hemisphere(at.normal, uv.u, uv.v);
+    const bool rough = has_oren_nayar() || has_eon();
+    if (rough || mis_) {
+      const F cos_i = dot(wi, at.normal);
+      s.pdf_w = cos_i * F(std::numbers::inv_pi_v<float>);
+      if (rough) s.throughput = s.throughput * select(diffuse, diffuse_factor(at, wi, wo, cos_i), V::all(F(1.0f)));
     }
     direction = select(diffuse, wi, direction);
   }
 
+  /// Light that comes straight from the lamps, times the BRDF over the reflectance.
+  V direct_light(const PathState<F>& s, const Shading<F>& at, const M& asks, const V& wo) const {
+    const int rays = scene_.settings.shadow_rays;
+    const F scale(std::numbers::inv_pi_v<float> / static_cast<float>(rays));
+    const bool several = !features.one_parallelogram && scene_.lamps.rows() > 1;
+    V direct = V::all(F(0.0f));
+    for (int k = 0; k < rays; ++k) {
+      const F which = several ? number(s, HitDimension::lamp, rays, k) : F(0.0f);
+      const Point2<F> uv = pair(s, HitDimension::lamp_u, rays, k);
+      const LampSample<F> lamp = sample_lamp<F, features.one_parallelogram>(scene_, at.point, which, uv.u, uv.v);
+      const F cos_i = dot(lamp.direction, at.normal);
+      const M lit = asks & (cos_i > F(0.0f)) & (lamp.inverse_pdf > F(0.0f));
+      if (!any(lit)) continue;
+      const Ray<F> shadow{at.point, lamp.direction, at.surface};
+      const M seen = lit & !occluded<F, features>(scene_, shadow, lamp.distance, lamp.first_surface, lamp.last_surface);
+      F weight = cos_i * (lamp.inverse_pdf * scale);
+      if (mis_) {
+        // M rays here and one direction there (the balance heuristic): M / (M + pdf_w there / pdf_w here).
+        const F m(static_cast<float>(rays));
+        const F there = cos_i * F(std::numbers::inv_pi_v<float>);
+        weight = weight * (m * reciprocal(fma(there, lamp.inverse_pdf * lamp.inverse_choice, m)));
+      }
+      // Lanes that do not see the lamp may hold values that are no numbers.
+      if (has_eon()) {
+        const V factor = diffuse_factor(at, lamp.direction, wo, cos_i) * weight;
+        direct = fma(lamp.weight, select(seen, factor, V::all(F(0.0f))), direct);
+      } else {
+        if (has_oren_nayar()) weight = weight * oren_nayar_factor(oren_nayar(at), lamp.direction, wo, cos_i, at.cos_o);
+        direct = fma(lamp.weight, select(seen, weight, F(0.0f)), direct);
+      }
+    }
+    return direct;
+  }
+
   /// Reflection or refraction, chosen by Fresnel, so both keep the throughput but for the square of the index.
-  void scatter_glass(PathState<F>& s, const Shading<F>& at, const M& glass, V& direction) const {
+  void scatter_glass(PathState<F>& s, const Shading<F>& at, const M& glass, F u, V& direction) const {
     const F ratio = value(Column::eta, at);
     const F inverse = reciprocal(ratio);
     const F eta = select(at.front, ratio, inverse);
     const F inverse_eta = select(at.front, inverse, ratio);
     const Dielectric<F> interface = fresnel(at.cos_o, eta, inverse_eta, value(Column::schlick, at) > F(0.5f));
-    const M reflected = random(s, HitDimension::direction_u) < interface.reflected;
+    const M reflected = u < interface.reflected;
     const V mirrored = reflect(s.ray.direction, at.normal, at.cos_o);
     const V refracted = refract(s.ray.direction, at.normal, at.cos_o, interface.cos_t, inverse_eta);
     // Many in a row would let the length drift.
@@ -247,14 +308,22 @@ class PathTracer {
     if (!any(plays)) return plays;
     // The square of the index is left out: it comes back when the path leaves the glass.
     const F survival = constant ? F(constant_survival) : min(brightest * s.ior2, F(largest_survival));
-    const M dies = plays & !(random(s, HitDimension::roulette) < survival);
+    const M dies = plays & !(number(s, HitDimension::roulette) < survival);
     s.throughput = s.throughput * select(plays, reciprocal(survival), F(1.0f));
     return dies;
   }
 
+  /// The settings that the kernel may be compiled for; numbers among them are read at run time.
+  static constexpr Settings usual{};
+  const Settings& choices() const { return features.rare ? scene_.settings : usual; }
+
   static constexpr float constant_survival = 0.75f;  ///< the report's
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
   static constexpr float largest_survival = 0.95f;   ///< below 1, so that light trapped in glass ends
+
+  static constexpr int done_capacity = 128;  ///< paths that have ended before their radiance is written out
+  template <class T>
+  using DoneArray = std::array<T, done_capacity + 2 * lane_count<F>>;
 
   static constexpr int small_stride = 32;  ///< of tables with up to 32 rows, so that columns are at fixed places
 
@@ -264,15 +333,27 @@ class PathTracer {
   std::uint32_t hit_block_;      ///< dimensions of a hit
   std::int32_t roulette_begin_;  ///< depth of the first hit at which every path plays roulette
   bool next_event_;
+  bool mis_;
+
+  int done_ = 0;
+  DoneArray<float> done_r_, done_g_, done_b_;
+  DoneArray<std::int32_t> done_path_;
 };
+
+/// Whether PathTracer's `usual` settings are the scene's.
+inline bool has_usual_settings(const Settings& s) {
+  const Settings usual;
+  return s.light_sampling == usual.light_sampling && s.mis == usual.mis && s.sampler == usual.sampler &&
+         s.caustics == usual.caustics && s.max_depth == usual.max_depth;
+}
 
 template <class F>
 void trace_source(const CompiledScene& scene, PathSource<F>& source, float* rgb) {
   const bool rare = scene.has_glow || !scene.triangles.empty() || !scene.shells.empty() || scene.room_hides_lamps ||
+                    scene.has_eon || !has_usual_settings(scene.settings) ||
                     std::any_of(scene.solids.begin(), scene.solids.end(), [](const Solid& s) { return s.glass; });
-  const bool one_rectangle =
-      scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
-  if (rare || !one_rectangle || scene.surfaces.rows() > small_table) {
+  const bool one = scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
+  if (rare || !one || scene.surfaces.rows() > small_table) {
     PathTracer<F, Features{false, false, true, true}>(scene, rgb).run(source);
   } else if (scene.has_oren_nayar) {
     PathTracer<F, Features{true, true, true, false}>(scene, rgb).run(source);

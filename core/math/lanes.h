@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <xsimd/xsimd.hpp>
 
 /// Lanes: the kernel is written once for a type F that is either float or a SIMD batch of floats, one path per lane.
@@ -62,6 +63,13 @@ inline std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
 inline std::int32_t as_int(float a) { return std::bit_cast<std::int32_t>(a); }
 inline std::int32_t as_int(std::uint32_t a) { return static_cast<std::int32_t>(a); }
 inline std::uint32_t as_uint(std::int32_t a) { return static_cast<std::uint32_t>(a); }
+/// Bit 0 becomes bit 31.
+inline std::uint32_t reverse_bits(std::uint32_t a) {
+  a = (a >> 1 & 0x55555555u) | (a & 0x55555555u) << 1;
+  a = (a >> 2 & 0x33333333u) | (a & 0x33333333u) << 2;
+  a = (a >> 4 & 0x0f0f0f0fu) | (a & 0x0f0f0f0fu) << 4;
+  return __builtin_bswap32(a);
+}
 
 // Quotients and roots, within 1 ulp. With AVX-512 they start from the processor's 14-bit estimates, which are the same
 // in one lane and in many, and take a Newton step; elsewhere they are exact.
@@ -174,9 +182,11 @@ xsimd::batch<float, A> reciprocal(xsimd::batch<float, A> a) {
 #ifdef __AVX512DQ__
   if constexpr (std::is_same_v<typename xsimd::batch<float, A>::register_type, __m512>) {
     const __m512 estimate = _mm512_rcp14_ps(a.data);
-    const __mmask16 special = _mm512_fpclass_ps_mask(estimate, 0x02 | 0x04 | 0x08 | 0x10);  // zeros and infinities
     const __m512 error = _mm512_fnmadd_ps(a.data, estimate, _mm512_set1_ps(1.0f));
-    return xsimd::batch<float, A>(_mm512_mask_mov_ps(_mm512_fmadd_ps(error, estimate, estimate), special, estimate));
+    // NaN or -inf where the estimate is 0 or infinite
+    const __mmask16 finite =
+        _mm512_cmp_ps_mask(error, _mm512_set1_ps(-std::numeric_limits<float>::infinity()), _CMP_GT_OQ);
+    return xsimd::batch<float, A>(_mm512_mask_fmadd_ps(estimate, finite, error, estimate));
   }
 #endif
   return xsimd::batch<float, A>(1.0f) / a;
@@ -253,6 +263,27 @@ xsimd::batch<std::uint32_t, A> as_uint(xsimd::batch<std::int32_t, A> a) {
   return xsimd::bitwise_cast<xsimd::batch<std::uint32_t, A>>(a);
 }
 
+template <class A>
+xsimd::batch<std::uint32_t, A> reverse_bits(xsimd::batch<std::uint32_t, A> a) {
+  using U = xsimd::batch<std::uint32_t, A>;
+#if defined(__AVX512BW__) && defined(__GFNI__)
+  if constexpr (std::is_same_v<typename U::register_type, __m512i>) {
+    // The bits of every byte, then the bytes of every word.
+    const __m512i bytes = _mm512_gf2p8affine_epi64_epi8(a.data, _mm512_set1_epi64(0x8040201008040201), 0);
+    const __m512i order = _mm512_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
+                                          12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
+                                          12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
+                                          12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3);
+    return U(_mm512_shuffle_epi8(bytes, order));
+  }
+#endif
+  a = ((a >> 1) & U(0x55555555u)) | ((a & U(0x55555555u)) << 1);
+  a = ((a >> 2) & U(0x33333333u)) | ((a & U(0x33333333u)) << 2);
+  a = ((a >> 4) & U(0x0f0f0f0fu)) | ((a & U(0x0f0f0f0fu)) << 4);
+  a = ((a >> 8) & U(0x00ff00ffu)) | ((a & U(0x00ff00ffu)) << 8);
+  return (a >> 16) | (a << 16);
+}
+
 /// Consecutive elements from memory, one a lane; `V` is a lane type of float, int32 or uint32.
 template <class V, class T>
 V load(const T* from) {
@@ -317,6 +348,15 @@ xsimd::batch<float, A> lookup_small(const float* table, xsimd::batch<std::int32_
 
 namespace detail {
 
+/// For each 8-bit mask: its lanes one after the other.
+inline constexpr auto lane_order = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> order{};
+  for (unsigned mask = 0; mask < 256; ++mask)
+    for (unsigned lane = 0, place = 0; lane < 8; ++lane)
+      if (mask >> lane & 1) order[mask][place++] = static_cast<std::uint8_t>(lane);
+  return order;
+}();
+
 /// For each 8-bit mask and lane: how many lanes below it are in the mask.
 inline constexpr auto lane_rank = [] {
   std::array<std::array<std::uint8_t, 8>, 256> rank{};
@@ -357,6 +397,37 @@ V expand(V old, Mask<F> mask, const T* from) {
     for (std::uint32_t m = bits(mask); m != 0; m &= m - 1)
       lane[static_cast<std::size_t>(std::countr_zero(m))] = *from++;
     return V::load_unaligned(lane.data());
+  }
+}
+
+/// Writes the lanes in the mask to `to` one after the other, in lane order; as many elements as there are lanes may be
+/// written over.
+template <class V, class F, class T>
+void compress(V value, Mask<F> mask, T* to) {
+  static_assert(sizeof(T) == 4);
+  if constexpr (std::is_arithmetic_v<V>) {
+    if (mask) *to = value;
+  } else {
+    using Register [[maybe_unused]] = typename F::register_type;
+#ifdef __AVX512F__
+    if constexpr (std::is_same_v<Register, __m512>) {
+      // Not to memory at once, which some processors do slowly.
+      _mm512_storeu_ps(to, _mm512_maskz_compress_ps(mask.data, std::bit_cast<__m512>(value.data)));
+      return;
+    }
+#endif
+#ifdef __AVX2__
+    if constexpr (std::is_same_v<Register, __m256>) {
+      const auto& order = detail::lane_order[bits(mask)];
+      const __m256i index = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(order.data())));
+      _mm256_storeu_ps(reinterpret_cast<float*>(to),
+                       _mm256_permutevar8x32_ps(std::bit_cast<__m256>(value.data), index));
+      return;
+    }
+#endif
+    std::array<T, F::size> lane;
+    value.store_unaligned(lane.data());
+    for (std::uint32_t m = bits(mask); m != 0; m &= m - 1) *to++ = lane[static_cast<std::size_t>(std::countr_zero(m))];
   }
 }
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "scene/lowering.h"
 #include "scene/scene_file.h"
@@ -138,7 +139,25 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   auto& list = glass ? l.out.glass_spheres : around_eye ? l.out.shells : l.out.spheres;
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   if (material.type == MaterialType::light && !around_eye)
-    l.lamps.push_back({LampShape::sphere, c, dvec3{sphere.radius, 0, 0}, {}, {}, material.radiance, surface, surface});
+    l.lamps.push_back(
+        {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
+         c,
+         dvec3{sphere.radius, 0, 0},
+         {},
+         {},
+         material.radiance,
+         surface,
+         surface});
+}
+
+/// A of the FON model (Portsmouth, Kutz and Hill 2025).
+double eon_a(double roughness) { return 1 / (1 + (0.5 - 2 / (3 * std::numbers::pi)) * roughness); }
+
+/// With E the mean albedo of the FON model: light that is reflected again and again comes to rho^2 E / (1 - rho (1 -
+/// E)) of a share 1 - E lost by each side (the same paper); here over rho, which the path's throughput holds already.
+dvec3 eon_multiple(const Material& m) {
+  const double mean = eon_a(m.eon_roughness) * (1 + (2.0 / 3 - 28 / (15 * std::numbers::pi)) * m.eon_roughness);
+  return m.reflectance * mean / ((1.0 - m.reflectance * (1 - mean)) * (1 - mean));
 }
 
 void fill_surfaces(Lowering& l) {
@@ -157,19 +176,23 @@ void fill_surfaces(Lowering& l) {
     const std::int32_t kind = light ? kind_light : glass ? kind_glass : mirror ? kind_mirror : kind_diffuse;
     const dvec3 emission = light ? m.radiance : glass || mirror ? dvec3{0} : m.emission;
     const double sigma2 = rough ? m.roughness * m.roughness : 0;
+    const bool eon = m.type == MaterialType::eon && m.eon_roughness > 0;
     set3(Column::normal_x, s.normal_or_center);
     set(Column::inverse_radius, s.inverse_radius);
     table[Column::kind][i] = std::bit_cast<float>(kind);
     set3(Column::reflectance_r, light ? dvec3{0} : glass ? dvec3{1} : m.reflectance);
     set3(Column::emission_r, emission);
-    set(Column::oren_nayar_a, 1 - sigma2 / (2 * (sigma2 + 0.33)));
-    set(Column::oren_nayar_b, 0.45 * sigma2 / (sigma2 + 0.09));
+    set(Column::oren_nayar_a, eon ? eon_a(m.eon_roughness) : 1 - sigma2 / (2 * (sigma2 + 0.33)));
+    set(Column::oren_nayar_b, eon ? m.eon_roughness : 0.45 * sigma2 / (sigma2 + 0.09));
+    set(Column::eon, eon ? 1 : 0);
+    if (eon) set3(Column::eon_multiple_r, eon_multiple(m));
     set(Column::oren_nayar_report, m.formula == OrenNayarFormula::report ? 1 : 0);
     set(Column::eta, s.eta);
     set(Column::schlick, m.fresnel == Fresnel::schlick ? 1 : 0);
     l.out.has_mirror |= mirror;
     l.out.has_glass |= glass;
     l.out.has_oren_nayar |= rough;
+    l.out.has_eon |= eon;
     l.out.has_glow |= !light && emission != dvec3{0};
     l.out.max_radiance = std::max({l.out.max_radiance, emission.r, emission.g, emission.b});
   }
@@ -197,7 +220,7 @@ void describe(Lowering& l) {
   const bool constant_diverges = std::any_of(l.surfaces.begin(), l.surfaces.end(), [](const Surface& s) {
     const dvec3& r = s.material->reflectance;
     const MaterialType type = s.material->type;
-    return (type == MaterialType::lambertian || type == MaterialType::oren_nayar) && std::max({r.r, r.g, r.b}) > 0.866;
+    return is_diffuse(type) && std::max({r.r, r.g, r.b}) > 0.866;
   });
   if (out.settings.roulette == Roulette::constant && constant_diverges)
     out.warnings.emplace_back(

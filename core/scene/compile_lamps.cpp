@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -13,11 +14,14 @@ using glm::dvec3;
 void add_flat_lamp(Lowering& l, const std::vector<dvec3>& v, const dvec3& normal, const Material& material,
                    int first_surface, int last_surface) {
   if (material.type != MaterialType::light) return;
+  const bool by_solid_angle = l.scene.render.light_sampling == LightSampling::solid_angle;
   auto add = [&](LampShape shape, const dvec3& e1, const dvec3& e2) {
     l.lamps.push_back({shape, v[0], e1, e2, normal, material.radiance, first_surface, last_surface});
   };
   if (is_parallelogram(v)) {
-    add(LampShape::parallelogram, v[1] - v[0], v[3] - v[0]);
+    const dvec3 e1 = v[1] - v[0], e2 = v[3] - v[0];
+    const bool rectangle = std::abs(dot(e1, e2)) <= 1e-9 * length(e1) * length(e2);
+    add(by_solid_angle && rectangle ? LampShape::rectangle : LampShape::parallelogram, e1, e2);
   } else {
     for (std::size_t i = 2; i < v.size(); ++i) add(LampShape::triangle, v[i - 1] - v[0], v[i] - v[0]);
   }
@@ -28,10 +32,12 @@ namespace {
 double area_of(const LampPiece& p) {
   switch (p.shape) {
     case LampShape::parallelogram:
+    case LampShape::rectangle:
       return length(cross(p.e1, p.e2));
     case LampShape::triangle:
       return length(cross(p.e1, p.e2)) / 2;
     case LampShape::sphere:
+    case LampShape::sphere_by_area:
       return 4 * std::numbers::pi * p.e1.x * p.e1.x;
   }
   return 0;
@@ -91,10 +97,22 @@ void lower_lamps(Lowering& l) {
     set_int(LampColumn::shape, static_cast<int>(p.shape));
     set_int(LampColumn::first_surface, p.first_surface);
     set_int(LampColumn::last_surface, p.last_surface);
-    set3(LampColumn::weight_r, p.radiance * ((p.shape == LampShape::sphere ? 1 : area_of(p)) / probability[i]));
+    const bool by_area = p.shape != LampShape::sphere && p.shape != LampShape::rectangle;
+    const double inverse_choice = (by_area ? area_of(p) : 1) / probability[i];
+    set3(LampColumn::weight_r, p.radiance * inverse_choice);
+    auto set = [&](LampColumn c, double value) { table[c][i] = static_cast<float>(value); };
+    set(LampColumn::inverse_choice, inverse_choice);
+    set(LampColumn::length_1, length(p.e1));
+    set(LampColumn::length_2, length(p.e2));
     table[LampColumn::alias_threshold][i] = static_cast<float>(alias[i].threshold);
     set_int(LampColumn::alias_other, static_cast<int>(alias[i].other));
     l.out.has_lamp_shape[static_cast<std::size_t>(p.shape)] = true;
+  }
+  for (int surface = 0; surface < l.out.surfaces.rows(); ++surface) {
+    const auto piece = std::ranges::find_if(
+        l.lamps, [&](const LampPiece& p) { return p.first_surface <= surface && surface <= p.last_surface; });
+    const auto row = piece == l.lamps.end() ? -1 : static_cast<int>(piece - l.lamps.begin());
+    l.out.surfaces[Column::lamp][surface] = std::bit_cast<float>(row);
   }
   l.out.lamps = std::move(table);
 }

@@ -41,12 +41,17 @@ enum class Column {
   oren_nayar_a,
   oren_nayar_b,       ///< A and B of Oren-Nayar; 1 and 0 for Lambertian
   oren_nayar_report,  ///< 1 where the report's formula is asked for
-  eta,                ///< glass: index behind the surface over index in front of it
-  schlick,            ///< 1 where Schlick's Fresnel is asked for
+  eon,                ///< 1 for EON; its A and roughness are then in the places of A and B
+  eon_multiple_r,
+  eon_multiple_g,
+  eon_multiple_b,  ///< weight of its light reflected many times, over the reflectance
+  eta,             ///< glass: index behind the surface over index in front of it
+  schlick,         ///< 1 where Schlick's Fresnel is asked for
+  lamp,            ///< first row of the lamp table that is a piece of this light, as int32; -1: none is
   count
 };
 
-/// Columns of the lamp table: parallelograms and triangles p + a e1 + b e2, and spheres.
+/// Columns of the lamp table: parallelograms, rectangles and triangles p + a e1 + b e2, and spheres.
 enum class LampColumn {
   p_x,
   p_y,
@@ -65,13 +70,18 @@ enum class LampColumn {
   last_surface,  ///< surfaces that cannot hide a point of the lamp, as int32: its own flat or convex shape
   weight_r,
   weight_g,
-  weight_b,         ///< flat: radiance * area / probability of choice; sphere: radiance / probability of choice
+  weight_b,        ///< radiance * inverse_choice
+  inverse_choice,  ///< area / probability of choice; only 1 / probability where points are chosen by solid angle
+  length_1,
+  length_2,         ///< of the edges of a rectangle
   alias_threshold,  ///< alias table (Walker 1977; Vose 1991): keep the entry below it, else take
   alias_other,      ///< this one, as int32
   count
 };
 
-enum class LampShape { parallelogram, triangle, sphere };
+/// What is sampled, and how: `rectangle` and `sphere` by solid angle, the others by area.
+enum class LampShape { parallelogram, triangle, sphere, rectangle, sphere_by_area };
+inline constexpr std::size_t lamp_shapes = 5;
 
 /// Columns of floats, each 64-byte aligned and padded to a multiple of 32 with zeros.
 template <class ColumnType>
@@ -170,10 +180,10 @@ struct CompiledScene {
   std::vector<TriangleShape> triangles;
 
   Table<LampColumn> lamps;
-  bool has_mirror = false, has_glass = false, has_oren_nayar = false;
-  bool has_glow = false;                 ///< reflecting surfaces with emission
-  bool room_hides_lamps = false;         ///< a lamp is partly outside the room, so shadow rays test the room too
-  std::array<bool, 3> has_lamp_shape{};  ///< by LampShape
+  bool has_mirror = false, has_glass = false, has_oren_nayar = false, has_eon = false;
+  bool has_glow = false;          ///< reflecting surfaces with emission
+  bool room_hides_lamps = false;  ///< a lamp is partly outside the room, so shadow rays test the room too
+  std::array<bool, lamp_shapes> has_lamp_shape{};  ///< by LampShape
 
   // For people: what the kernel will and will not do in this scene, and what they should know about it.
   std::vector<std::string> compiled_in, left_out, warnings;

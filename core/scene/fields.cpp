@@ -7,7 +7,10 @@
 namespace glimt {
 namespace {
 
-constexpr std::array<std::string_view, 2> method_names{"path", "naive"};
+constexpr std::array<std::string_view, 3> method_names{"path", "naive", "report"};
+constexpr std::array<std::string_view, 4> light_sampling_names{"none", "area", "solid-angle", "auto"};
+constexpr std::array<std::string_view, 5> sampler_names{"independent", "stratified", "lattice", "sobol", "centres"};
+constexpr std::array<std::string_view, 2> switch_names{"off", "on"};
 constexpr std::array<std::string_view, 2> roulette_names{"throughput", "constant"};
 constexpr std::array<std::string_view, 2> formula_names{"published", "report"};
 constexpr std::array<std::string_view, 2> fresnel_names{"exact", "schlick"};
@@ -30,17 +33,30 @@ constexpr auto choice(std::span<const std::string_view> names) {
 
 constexpr double max_radiance = 1e9;
 
-const std::array<Field<Settings>, 7> settings_table{{
+// The method comes before what it sets, so that what a file or command line says beside it holds.
+const std::array<Field<Settings>, 12> settings_table{{
     {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
     {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
      &Settings::target_error, 0, 1e6},
     {"shadow_rays", "shadow rays per diffuse hit", &Settings::shadow_rays, 1, 64},
     {"seed", "seed of the random numbers", &Settings::seed, 0, 2147483647},
-    {"method", "estimator: path samples the lamps, naive reaches them by chance",
-     choice<&Settings::method>(method_names)},
+    {"method",
+     "what the settings below begin from: path, the best measured; naive, lamps by chance; the course report's",
+     Choice<Settings>{method_names, [](const Settings& s) { return static_cast<int>(s.method); },
+                      [](Settings& s, int value) { set_method(s, static_cast<Method>(value)); }}},
+    {"light_sampling",
+     "points on lamps: none; by area; by solid angle; auto, spheres by solid angle and flat lamps by area",
+     choice<&Settings::light_sampling>(light_sampling_names)},
+    {"mis", "lamps found by chance and by light sampling share the work (multiple importance sampling)",
+     choice<&Settings::mis>(switch_names)},
     {"roulette", "probability of survival: the path's throughput, or constant 0.75 at diffuse hits",
      choice<&Settings::roulette>(roulette_names)},
     {"roulette_depth", "surface hits before roulette by throughput begins", &Settings::roulette_depth, 0, 64},
+    {"sampler", "random numbers: independent, stratified 4x4, lattice, Owen-scrambled Sobol, or sub-pixel centres",
+     choice<&Settings::sampler>(sampler_names)},
+    {"caustics", "light that reaches a diffuse surface by way of mirrors or glass",
+     choice<&Settings::caustics>(switch_names)},
+    {"max_depth", "surfaces that a path may meet, its lamp included; 0 for no limit", &Settings::max_depth, 0, 1000},
 }};
 
 const std::array<Field<Camera>, 4> camera_table{{
@@ -127,15 +143,39 @@ const Field<Material> emission{.key = "emission",
                                .min = 0,
                                .max = max_radiance};
 
-const std::array<MaterialInfo, 5> material_table{{
+const Field<Material> eon_roughness{.key = "roughness",
+                                    .doc = "of the surface, from smooth to roughest",
+                                    .member = &Material::eon_roughness,
+                                    .min = 0,
+                                    .max = 1,
+                                    .required = true};
+
+const std::array<MaterialInfo, 6> material_table{{
     {MaterialType::lambertian, "lambertian", "matt, equally bright from everywhere", {reflectance, emission}},
     {MaterialType::oren_nayar, "oren-nayar", "rough and matt, like clay", {reflectance, roughness, formula, emission}},
+    {MaterialType::eon, "eon", "rough and matt, keeping all energy", {reflectance, eon_roughness, emission}},
     {MaterialType::mirror, "mirror", "perfect mirror", {reflectance}},
     {MaterialType::glass, "glass", "smooth and clear, for closed shapes", {ior, fresnel}},
     {MaterialType::light, "light", "lamp that reflects nothing", {radiance}},
 }};
 
 }  // namespace
+
+void set_method(Settings& settings, Method method) {
+  const Settings other = settings;
+  settings = {};
+  settings.spp = other.spp;
+  settings.shadow_rays = other.shadow_rays;
+  settings.seed = other.seed;
+  settings.method = method;
+  if (method == Method::naive) settings.light_sampling = LightSampling::none;
+  if (method != Method::report) return;
+  settings.light_sampling = LightSampling::area;
+  settings.mis = Mis::off;
+  settings.roulette = Roulette::constant;
+  settings.sampler = Sampler::centres;
+  settings.caustics = Caustics::off;
+}
 
 std::span<const Field<Settings>> settings_fields() { return settings_table; }
 std::span<const MaterialInfo> material_infos() { return material_table; }

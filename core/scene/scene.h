@@ -11,7 +11,12 @@
 /// metres. Angles are in degrees here, as in files; radiance is linear RGB in W/(m^2 sr).
 namespace glimt {
 
-enum class MaterialType { lambertian, oren_nayar, mirror, glass, light };
+enum class MaterialType { lambertian, oren_nayar, eon, mirror, glass, light };
+
+/// Scatters light in all directions.
+inline bool is_diffuse(MaterialType type) {
+  return type == MaterialType::lambertian || type == MaterialType::oren_nayar || type == MaterialType::eon;
+}
 
 /// Which of the two printed forms of the Oren-Nayar model is meant.
 enum class OrenNayarFormula {
@@ -28,6 +33,7 @@ struct Material {
   MaterialType type = MaterialType::lambertian;
   glm::dvec3 reflectance{0.75};  ///< per channel, 0..1
   double roughness = 0.6;        ///< sigma, standard deviation of the facet slope angle, radians
+  double eon_roughness = 0.6;    ///< of the energy-preserving Oren-Nayar model, 0..1
   OrenNayarFormula formula = OrenNayarFormula::published;
   double ior = 1.5;  ///< absolute refractive index; 1 outside everything
   Fresnel fresnel = Fresnel::exact;

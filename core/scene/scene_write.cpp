@@ -20,13 +20,13 @@ std::string value_text(const Field<T>& field, const T& object) {
 
 std::string line(std::string_view key, const std::string& value) { return std::string(key) + " = " + value + "\n"; }
 
-/// The required fields, and the others where they differ from the default.
+/// The required fields, and the others where they differ from `defaults`.
 template <class T>
-std::string field_lines(std::span<const Field<T>> fields, const T& object) {
+std::string field_lines(std::span<const Field<T>> fields, const T& object, const T& defaults = {}) {
   std::string text;
   for (const Field<T>& field : fields) {
     const std::string value = value_text(field, object);
-    if (field.required || value != value_text(field, T{})) text += line(field.key, value);
+    if (field.required || value != value_text(field, defaults)) text += line(field.key, value);
   }
   return text;
 }
@@ -55,7 +55,10 @@ std::string write_scene(const Scene& scene) {
   text += field_lines(camera_fields(), scene.camera);
   section("[image]");
   text += field_lines(image_fields(), scene.image);
-  if (const std::string settings = field_lines(settings_fields(), scene.render); !settings.empty()) {
+  Settings begun;  // what a reader of the file has after its method
+  set_method(begun, scene.render.method);
+  begun.method = {};
+  if (const std::string settings = field_lines(settings_fields(), scene.render, begun); !settings.empty()) {
     section("[render]");
     text += settings;
   }

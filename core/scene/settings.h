@@ -5,11 +5,23 @@
 
 namespace glimt {
 
-/// Which estimator of the light transport integral is used.
+/// Named sets of the settings below. A method is where they begin; each can then be set on its own.
 enum class Method {
-  path,   ///< next-event estimation at diffuse hits, lamps reached by chance only through specular chains
-  naive,  ///< no next-event estimation: lamps are reached by chance alone
+  path,    ///< the best measured
+  naive,   ///< lamps are reached by chance alone
+  report,  ///< what the course report did, its missing caustics included
 };
+
+/// How next-event estimation chooses points of lamps.
+enum class LightSampling {
+  none,         ///< not at all: lamps are reached by chance
+  area,         ///< uniform by area: the report's eq. 15
+  solid_angle,  ///< uniform by solid angle: rectangles (Urena et al. 2013) and spheres; other lamps by area
+  automatic,    ///< spheres by solid angle, flat lamps by area: the best measured
+};
+
+/// Whether light sampling and BSDF sampling share the lamps that both can reach, by the balance heuristic (Veach 1997).
+enum class Mis { off, on };
 
 /// How Russian roulette chooses the probability of survival.
 enum class Roulette {
@@ -19,19 +31,39 @@ enum class Roulette {
 
 inline constexpr int max_spp = 1 << 24;
 
+/// Where the random numbers come from.
+enum class Sampler {
+  independent,  ///< hashed
+  stratified,   ///< pairs of numbers in 4x4 strata, each taken once in 16 samples
+  lattice,      ///< randomly shifted points of a lattice
+  sobol,        ///< pairs of an Owen-scrambled Sobol sequence, shuffled for each pair (padded)
+  centres,  ///< independent, but camera rays through the centres of a pixel's sub-pixels (the report's multisampling)
+};
+
+/// Light that reaches a diffuse surface by way of mirrors or glass.
+enum class Caustics { off, on };
+
 /// Everything that says how a scene is rendered, and nothing of what is in it. Declared for files, command line and
 /// window in fields.cpp.
 struct Settings {
-  int spp = 64;         ///< samples per pixel to stop at
-  double target_error = 0;  ///< relmse_estimate to stop at in place of `spp`; 0: stop at `spp`
-  int shadow_rays = 1;  ///< M, shadow rays per diffuse hit
-  int seed = 1;         ///< of the random numbers
-  Method method = Method::path;
+  int spp = 64;                  ///< samples per pixel to stop at
+  double target_error = 0;       ///< relmse_estimate to stop at in place of `spp`; 0: stop at `spp`
+  int shadow_rays = 1;           ///< M, shadow rays per diffuse hit
+  int seed = 1;                  ///< of the random numbers
+  Method method = Method::path;  ///< what the settings below began from
+  LightSampling light_sampling = LightSampling::automatic;
+  Mis mis = Mis::off;
   Roulette roulette = Roulette::throughput;
   int roulette_depth = 3;  ///< surface hits before `throughput` roulette begins
+  Sampler sampler = Sampler::lattice;
+  Caustics caustics = Caustics::on;
+  int max_depth = 0;  ///< surfaces that a path may meet, its lamp included; 0: no limit
 
   bool operator==(const Settings&) const = default;
 };
+
+/// Takes all settings from `light_sampling` on from the method.
+void set_method(Settings& settings, Method method);
 
 /// The settings without where to stop: what decides the value of every sample.
 inline Settings without_target(Settings settings) {

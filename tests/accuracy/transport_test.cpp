@@ -64,7 +64,7 @@ void expect_irradiance(Scene scene, const std::function<double(const dvec3&)>& i
       {Method::path, 1, 2000 * effort}, {Method::path, 4, 500 * effort}, {Method::naive, 1, 5000 * effort}};
   const double level = sidak(alpha, static_cast<double>(cases.size() * floor_points.size()));
   for (const Case& c : cases) {
-    scene.render.method = c.method;
+    set_method(scene.render, c.method);
     scene.render.shadow_rays = c.shadow_rays;
     const CompiledScene compiled = compile(scene);
     for (const dvec3& p : floor_points) {
@@ -143,7 +143,7 @@ TEST(ClosedForm, BackOfALampIsDark) {
   Scene scene = dark_floor();
   scene.polygons.push_back({"lamp", "lamp", {{-1, 2, 0.5}, {1, 2, 0.5}, {1, 2, -1}, {-1, 2, -1}}});
   for (const Method method : {Method::path, Method::naive}) {
-    scene.render.method = method;
+    set_method(scene.render, method);
     for (const float v : trace_all(compile(scene), 16, Lanes::native)) ASSERT_EQ(v, 0);
   }
 }
@@ -185,7 +185,7 @@ Scene lamps_of_all_shapes() {
 TEST(Estimators, NaiveIsPath) {
   Scene scene = lamps_of_all_shapes();
   const Series path = render_series(scene, 12, 8 * effort, 8);
-  scene.render.method = Method::naive;
+  set_method(scene.render, Method::naive);
   expect_same(path, render_series(scene, 12, 32 * effort, 8), "path and naive");
 }
 
@@ -213,7 +213,7 @@ TEST(Estimators, NaiveIsPathWithMirrorAndGlass) {
   scene.spheres[1].material = "glass";
   scene.meshes[1].material = "mirror";
   const Series path = render_series(scene, 12, 16 * effort, 8);
-  scene.render.method = Method::naive;
+  set_method(scene.render, Method::naive);
   expect_same(path, render_series(scene, 12, 32 * effort, 8), "path and naive");
 }
 
@@ -230,7 +230,7 @@ TEST(Estimators, NaiveIsPathWhereWallsHideLamps) {
       scene.polygons.push_back({"pane", "ceiling lamp", pane});
     }
     const Series path = render_series(scene, 12, 8 * effort, 8);
-    scene.render.method = Method::naive;
+    set_method(scene.render, Method::naive);
     expect_same(path, render_series(scene, 12, 32 * effort, 8),
                 as_mesh ? "path and naive, a mesh" : "path and naive, a polygon");
   }

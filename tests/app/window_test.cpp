@@ -183,7 +183,7 @@ class WindowTest : public ::testing::Test {
 
   static void click(const std::string& name, double share = 0.5) {
     point_at(name, share);
-    xdotool("click 1 sleep 0.05");
+    xdotool("sleep 0.05 click 1 sleep 0.05");
   }
 
   /// At the pace of a hand: ImGui takes in one change of a button in a picture.
@@ -408,7 +408,7 @@ TEST_F(ManagedWindow, EverySliderMovesAndEverythingIsUndone) {
 TEST_F(ManagedWindow, MouseSelectsAndOrbits) {
   ASSERT_FALSE(widgets().contains("object.type"));
   point_at("image", 0.5, 0.95);
-  xdotool("click 1 sleep 0.05");
+  xdotool("sleep 0.05 click 1 sleep 0.05");
   EXPECT_TRUE(is_there("object.type")) << "the floor is selected";
   xdotool("key Escape");
   EXPECT_TRUE(is_gone("object.type"));

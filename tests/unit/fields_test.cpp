@@ -51,8 +51,8 @@ TEST(Fields, DefaultsAreInRange) {
 }
 
 TEST(Fields, EveryMaterialTypeIsListedOnce) {
-  const MaterialType types[] = {MaterialType::lambertian, MaterialType::oren_nayar, MaterialType::mirror,
-                                MaterialType::glass, MaterialType::light};
+  const MaterialType types[] = {MaterialType::lambertian, MaterialType::oren_nayar, MaterialType::eon,
+                                MaterialType::mirror,     MaterialType::glass,      MaterialType::light};
   EXPECT_EQ(material_infos().size(), std::size(types));
   for (const MaterialType type : types) EXPECT_EQ(material_info(type).type, type);
 }
@@ -72,6 +72,18 @@ TEST(Fields, ChoicesSetTheValueTheyName) {
   EXPECT_EQ(settings.method, Method::naive);
   named(settings_fields(), "method", "path", settings);
   EXPECT_EQ(settings.method, Method::path);
+  named(settings_fields(), "light_sampling", "solid-angle", settings);
+  EXPECT_EQ(settings.light_sampling, LightSampling::solid_angle);
+  named(settings_fields(), "light_sampling", "auto", settings);
+  EXPECT_EQ(settings.light_sampling, LightSampling::automatic);
+  named(settings_fields(), "mis", "on", settings);
+  EXPECT_EQ(settings.mis, Mis::on);
+  named(settings_fields(), "sampler", "lattice", settings);
+  EXPECT_EQ(settings.sampler, Sampler::lattice);
+  named(settings_fields(), "sampler", "centres", settings);
+  EXPECT_EQ(settings.sampler, Sampler::centres);
+  named(settings_fields(), "caustics", "off", settings);
+  EXPECT_EQ(settings.caustics, Caustics::off);
   named(settings_fields(), "roulette", "constant", settings);
   EXPECT_EQ(settings.roulette, Roulette::constant);
   named(settings_fields(), "roulette", "throughput", settings);
@@ -85,6 +97,22 @@ TEST(Fields, ChoicesSetTheValueTheyName) {
   EXPECT_EQ(material.fresnel, Fresnel::schlick);
   named(material_info(MaterialType::glass).fields, "fresnel", "exact", material);
   EXPECT_EQ(material.fresnel, Fresnel::exact);
+}
+
+// A method sets what it is made of, and nothing that is not an estimator.
+TEST(Fields, MethodsSetTheirParts) {
+  Settings settings{.spp = 7, .shadow_rays = 3, .seed = 9, .mis = Mis::on, .max_depth = 4};
+  set_method(settings, Method::report);
+  EXPECT_EQ(settings, (Settings{.spp = 7,
+                                .shadow_rays = 3,
+                                .seed = 9,
+                                .method = Method::report,
+                                .light_sampling = LightSampling::area,
+                                .roulette = Roulette::constant,
+                                .sampler = Sampler::centres,
+                                .caustics = Caustics::off}));
+  set_method(settings, Method::path);
+  EXPECT_EQ(settings, (Settings{.spp = 7, .shadow_rays = 3, .seed = 9}));
 }
 
 TEST(Text, NumbersAreShortAndPlain) {

@@ -106,8 +106,8 @@ class Reference {
     const bool touches = std::abs(off_axis - s.radius) <= 4 * error_;
     const bool starts_on = line.from == object(s.material);
     const bool is_shell = around_eye(s) && !is_glass(s.material);
-    for (const double t : {-b - half, -b + half}) {
-      const bool enters = t == -b - half;
+    for (const bool enters : {true, false}) {
+      const double t = enters ? -b - half : -b + half;
       if (!is_glass(s.material) && enters == is_shell)
         continue;  // opaque spheres are met from outside, shells from inside
       if (t < -t_error) continue;
@@ -186,7 +186,7 @@ struct ShadowTest {
   std::int32_t first, last;  ///< the lamp's own surfaces
 };
 
-constexpr Features any_scene{.small_table = false, .one_rectangle = false, .oren_nayar = true, .rare = true};
+constexpr Features any_scene{.small_table = false, .one_parallelogram = false, .oren_nayar = true, .rare = true};
 
 /// Rays side by side, filled up with the last one.
 template <class F>

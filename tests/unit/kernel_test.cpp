@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "math/sampler.h"
+#include "kernel/random.h"
 #include "math/vec.h"
 #include "pictures.h"
 #include "random_scene.h"
@@ -31,8 +31,13 @@ std::vector<Scene> many_scenes() {
   for (unsigned seed = 0; seed < 25; ++seed) {
     scenes.push_back(RandomScene(seed).scene);
     Settings& settings = scenes.back().render;
-    settings.method = seed % 7 == 3 ? Method::naive : Method::path;
+    set_method(settings, seed % 7 == 3 ? Method::naive : Method::path);
     settings.roulette_depth = static_cast<int>(seed % 4) * 2;
+    settings.sampler = static_cast<Sampler>(seed % 4);
+    if (seed % 7 != 3) settings.light_sampling = static_cast<LightSampling>(1 + seed % 3);
+    settings.mis = static_cast<Mis>(seed % 2);
+    settings.caustics = static_cast<Caustics>(seed % 5 != 4);
+    settings.max_depth = seed % 6 == 5 ? 3 : 0;
   }
   return scenes;
 }
@@ -130,12 +135,13 @@ TEST(Kernel, TraceRayReplaysACameraPath) {
     const auto rgb = trace_all(compiled, 2, Lanes::native);
     for (int path = 0; path < 2 * compiled.width * compiled.height; path += 7) {
       const int pixels = compiled.width * compiled.height, pixel = path % pixels, sample = path / pixels;
-      const auto key = path_key<float>(static_cast<std::uint32_t>(compiled.settings.seed),
-                                       static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(sample));
-      const float x = static_cast<float>(pixel % compiled.width) +
-                      uniform<float>(key, static_cast<std::uint32_t>(Dimension::pixel_x));
-      const float y = static_cast<float>(pixel / compiled.width) +
-                      uniform<float>(key, static_cast<std::uint32_t>(Dimension::pixel_y));
+      const Sampler sampler = compiled.settings.sampler;
+      const auto key = first_key<float>(sampler, static_cast<std::uint32_t>(compiled.settings.seed),
+                                        static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(sample));
+      const Point2<float> in_pixel =
+          random_pair<float>(sampler, key, {0}, static_cast<std::uint32_t>(Dimension::pixel_x));
+      const float x = static_cast<float>(pixel % compiled.width) + in_pixel.u;
+      const float y = static_cast<float>(pixel / compiled.width) + in_pixel.v;
       auto vec = [](const std::array<float, 3>& v) { return Vec3<float>{v[0], v[1], v[2]}; };
       const auto& camera = compiled.camera;
       const Vec3<float> d = normalize(fma(vec(camera.right), x, fma(vec(camera.down), y, vec(camera.corner))));

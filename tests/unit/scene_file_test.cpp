@@ -254,7 +254,7 @@ TEST(Override, SetsAnyValue) {
   expected.camera.eye = {0, 0, 5};
   expected.camera.look_at.y = 0.5;
   expected.render.spp = 7;
-  expected.render.method = Method::naive;
+  set_method(expected.render, Method::naive);
   expected.materials[6].roughness = 0.25;
   expected.materials[6].formula = OrenNayarFormula::report;
   expected.spheres[1].radius = 0.5;
