@@ -40,6 +40,7 @@ class Offscreen {
     io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     io.DisplayFramebufferScale = {static_cast<float>(ratio), static_cast<float>(ratio)};
     io.DeltaTime = 1.0F / 60;
+    io.MouseDoubleClickTime = 0;  // a test presses faster than a hand
   }
   ~Offscreen() {
     screen_.reset();

@@ -181,7 +181,7 @@ TEST_F(ViewerEdit, UndoAndRedoOfEveryEditBringTheSamplesBack) {
   std::vector<Scene> scenes{window.state().scene};
   const Frame first = *window.state().frame;
   const auto did = [&](const char* what) {
-    ASSERT_NE(window.state().scene, scenes.back()) << what;
+    ASSERT_NE(window.state().scene, scenes.back()) << what << ": " << window.state().message.text;
     scenes.push_back(window.state().scene);
   };
   window.press("object.lambertian");
