@@ -317,7 +317,7 @@ TEST_P(Fit, NothingOverlapsOrSticksOut) {
   const Size size = GetParam();
   const auto [width, height, scale, ratio] = size;
   const bool pictures = std::getenv("GLIMT_SCREENSHOTS") != nullptr;
-  const std::vector<std::string> large{"image.width=800", "image.height=720", "render.spp=256"};
+  const std::vector<std::string> large{"image.width=768", "image.height=768", "render.spp=64"};
   Offscreen window(pictures ? read_scene(GLIMT_SCENES "/report.toml", large) : small_room(), width, height, scale,
                    ratio);
   ASSERT_TRUE(window.draw_until_finished());
