@@ -1,0 +1,179 @@
+// embree_rate SCENE: rays per second of Embree's tree and of the kernel's flat list on the same geometry, the same rays
+// (random_walk) and all threads, as JSON. No shading.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "embree_tree.h"
+#include "kernel/intersect.h"
+#include "render/render.h"
+#include "scene/scene_file.h"
+
+namespace {
+
+using namespace glimt;
+
+constexpr int width = lane_count<NativeLanes>;
+constexpr int rays = 1 << 17;
+
+template <int lanes>
+struct Packet;
+template <>
+struct Packet<16> {
+  using RayHit = RTCRayHit16;
+  static constexpr auto intersect = rtcIntersect16;
+  static constexpr auto occluded = rtcOccluded16;
+};
+template <>
+struct Packet<8> {
+  using RayHit = RTCRayHit8;
+  static constexpr auto intersect = rtcIntersect8;
+  static constexpr auto occluded = rtcOccluded8;
+};
+template <>
+struct Packet<4> {
+  using RayHit = RTCRayHit4;
+  static constexpr auto intersect = rtcIntersect4;
+  static constexpr auto occluded = rtcOccluded4;
+};
+
+int trace_packet(RTCScene tree, const Rays& r, int first, bool shadow, RTCIntersectContextFlags flags) {
+  alignas(64) static constexpr auto valid = [] {
+    std::array<int, width> v{};
+    v.fill(-1);
+    return v;
+  }();
+  using P = Packet<width>;
+  P::RayHit query;
+  const auto& d = shadow ? r.to_light : r.direction;
+  auto copy = [&](const std::vector<float>& from, float* to) { std::copy_n(from.begin() + first, width, to); };
+  copy(r.origin[0], query.ray.org_x), copy(r.origin[1], query.ray.org_y), copy(r.origin[2], query.ray.org_z);
+  copy(d[0], query.ray.dir_x), copy(d[1], query.ray.dir_y), copy(d[2], query.ray.dir_z);
+  std::fill_n(query.ray.tnear, width, 0.0f);
+  std::fill_n(query.ray.time, width, 0.0f);
+  std::fill_n(query.ray.mask, width, ~0U);
+  std::fill_n(query.ray.flags, width, 0U);
+  std::fill_n(query.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
+  RTCIntersectContext c = context(flags);
+  if (shadow) {
+    copy(r.light_distance, query.ray.tfar);
+    P::occluded(valid.data(), tree, &c, &query.ray);
+    return static_cast<int>(std::count(query.ray.tfar, query.ray.tfar + width, -infinite));
+  }
+  std::fill_n(query.ray.tfar, width, infinite);
+  P::intersect(valid.data(), tree, &c, &query);
+  return width - static_cast<int>(std::count(query.hit.geomID, query.hit.geomID + width, RTC_INVALID_GEOMETRY_ID));
+}
+
+int trace_singles(RTCScene tree, const Rays& r, int first, bool shadow) {
+  int hits = 0;
+  for (int i = first; i < first + width; ++i) {
+    RTCRayHit query = single(r, i, shadow);
+    RTCIntersectContext c = context();
+    if (shadow) {
+      rtcOccluded1(tree, &c, &query.ray);
+      hits += query.ray.tfar < 0;
+    } else {
+      rtcIntersect1(tree, &c, &query);
+      hits += query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+  return hits;
+}
+
+template <Features features>
+int trace_list(const CompiledScene& scene, const Rays& r, int first, bool shadow) {
+  using F = NativeLanes;
+  auto vector = [&](const std::array<std::vector<float>, 3>& v) {
+    return Vec3<F>{load<F>(&v[0][static_cast<std::size_t>(first)]), load<F>(&v[1][static_cast<std::size_t>(first)]),
+                   load<F>(&v[2][static_cast<std::size_t>(first)])};
+  };
+  const Ray<F> ray{vector(r.origin), vector(shadow ? r.to_light : r.direction), Int<F>(-1)};
+  const Mask<F> hit =
+      shadow ? occluded<F, features>(scene, ray, load<F>(&r.light_distance[static_cast<std::size_t>(first)]),
+                                     Int<F>(-1), Int<F>(-1))
+             : closest_hit<F, features>(scene, ray).t < F(infinite);
+  return std::popcount(bits(hit));
+}
+
+/// One way to trace all rays, and how long it took.
+struct Contender {
+  std::string name;
+  std::function<int(int first, bool shadow)> trace;  ///< rays first to first + width - 1; returns how many of them hit
+  bool shadow;
+  int passes = 1;                 ///< over all rays in one run
+  std::vector<double> seconds{};  ///< of each run, for one pass
+  double hit_share = 0;
+
+  /// Runs on all threads.
+  double run() {
+    long hits = 0;
+    const auto start = std::chrono::steady_clock::now();
+#pragma omp parallel reduction(+ : hits)
+    for (int pass = 0; pass < passes; ++pass)
+#pragma omp for schedule(dynamic, 64) nowait
+      for (int chunk = 0; chunk < rays; chunk += 8 * width)
+        for (int i = chunk; i < chunk + 8 * width; i += width) hits += trace(i, shadow);
+    hit_share = static_cast<double>(hits) / rays / passes;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / passes;
+  }
+};
+
+/// Rays per second of each contender: the median of runs of 30 ms and more, taken in turn.
+nlohmann::json rates(std::vector<Contender>& contenders) {
+  constexpr int runs = 7;
+  for (Contender& c : contenders)
+    while (c.passes < 256 && c.run() * c.passes < 0.03) c.passes *= 2;
+  for (int i = 0; i < runs; ++i)
+    for (Contender& c : contenders) c.seconds.push_back(c.run());
+  nlohmann::json result;
+  for (Contender& c : contenders) {
+    std::nth_element(c.seconds.begin(), c.seconds.begin() + runs / 2, c.seconds.end());
+    const char* kind = c.shadow ? "shadow" : "closest";
+    result[c.name][kind] = rays / c.seconds[runs / 2];
+    result[c.name][std::string(kind) + "_hit_share"] = c.hit_share;
+  }
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc != 2) throw std::runtime_error("usage: embree_rate SCENE");
+  const Scene scene = read_scene(argv[1]);
+  const CompiledScene compiled = compile(scene);
+  const Tree tree(scene, compiled.origin);
+  const Rays r = random_walk(tree, compiled, rays);
+  // As the kernel chooses: the rare shapes cost registers, so it leaves them out where the scene has none.
+  const bool rare = !compiled.triangles.empty() || !compiled.shells.empty() || compiled.room_hides_lamps ||
+                    std::ranges::any_of(compiled.solids, &Solid::glass) || compiled.lamps.rows() != 1;
+  constexpr Features all{.small_table = false, .one_parallelogram = false, .oren_nayar = true, .rare = true};
+  constexpr Features few{.small_table = false, .one_parallelogram = true, .oren_nayar = false, .rare = false};
+  std::vector<Contender> contenders;
+  for (const bool shadow : {false, true}) {
+    contenders.push_back(
+        {"embree_packets",
+         [&](int i, bool s) { return trace_packet(tree, r, i, s, RTC_INTERSECT_CONTEXT_FLAG_COHERENT); }, shadow});
+    // With this flag Embree takes packets apart.
+    contenders.push_back(
+        {"embree_packets_split",
+         [&](int i, bool s) { return trace_packet(tree, r, i, s, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT); }, shadow});
+    contenders.push_back({"embree_single", [&](int i, bool s) { return trace_singles(tree, r, i, s); }, shadow});
+    contenders.push_back(
+        {"flat_list",
+         [&](int i, bool s) { return rare ? trace_list<all>(compiled, r, i, s) : trace_list<few>(compiled, r, i, s); },
+         shadow});
+  }
+  nlohmann::json result = rates(contenders);
+  result["lanes"] = width;
+  result["threads"] = hardware_threads();
+  std::puts(result.dump(1).c_str());
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "embree_rate: %s\n", error.what());
+  return 1;
+}
