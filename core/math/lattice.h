@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "math/lanes.h"
+#include "math/twice.h"
 
 /// Steps of a lattice: point i of a dimension lies at frac(shift + i step), the shift random (Cranley and Patterson,
 /// "Randomization of number theoretic methods for multiple integration", 1976). Any number of samples may be taken;
