@@ -127,7 +127,7 @@ TEST(Reflectance, OneUnderALampThatIsTheWholeCeilingShowsItsRadianceEverywhere) 
     const Series series = render_series(scene, 8, c.samples, 8);
     const double level = sidak(alpha, static_cast<double>(cases.size() * (series.size() + 1)));
     EXPECT_GT(likelihood(series.overall(), 3), level) << series.overall().mean << " +- " << series.overall().error;
-    EXPECT_LT(series.overall().error, 0.005);
+    EXPECT_LT(series.overall().error, effort > 1 ? 0.005 : 0.02);
     for (std::size_t i = 0; i < series.size(); ++i)
       EXPECT_GT(likelihood(series.block(i), 3), level)
           << "block " << i / 3 << ": " << series.block(i).mean << " +- " << series.block(i).error;

@@ -112,13 +112,13 @@ TEST(Sequences, DimensionsOfAPathDoNotRunInStep) {
     for (const std::uint32_t count : counts)
       for (const auto& [a, b] : pairs) {
         std::vector<double> squares, products;
+        const std::uint32_t n = count / 2;  // of one half, whose samples share a sequence
         for (std::uint32_t p = 0; p < pixels; ++p) {
           double sum = 0;
-          // One half, whose samples share a sequence.
-          for (std::uint32_t s = 0; s < count / 2; ++s)
+          for (std::uint32_t s = 0; s < n; ++s)
             sum += value(pair(samplers[k], 1, p, 2 * s, a)) * value(pair(samplers[k], 1, p, 2 * s, b));
-          products.push_back(sum / (count / 2));
-          squares.push_back(sum * sum / (count / 2));
+          products.push_back(sum / n);
+          squares.push_back(sum * sum / n);
         }
         const std::string what = std::string(names[k]) + ", " + std::to_string(count) + " samples, hit " +
                                  std::to_string(a.hit) + " dimension " + std::to_string(a.dimension) + " with hit " +
