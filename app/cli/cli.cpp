@@ -27,6 +27,7 @@ int run_cli(int argc, char** argv) {
   add_window_command(app, run);
   add_render_command(app, run);
   add_compare_command(app, run);
+  add_chart_command(app, run);
   add_info_command(app, run);
   try {
     app.parse(argc, argv);

@@ -14,9 +14,14 @@ std::string progress_text(const Progress& progress);
 class ProgressBar {
  public:
   ~ProgressBar();
-  void show(const Progress& progress);
+  void show(const Progress& progress) { show(progress.fraction, progress_text(progress)); }
+  /// The same for work of another kind, of which only the share done is known.
+  void show(double fraction);
 
  private:
+  void show(double fraction, const std::string& text);
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point next_{};
   bool drawn_ = false;
 };

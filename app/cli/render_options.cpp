@@ -62,13 +62,6 @@ auto message_of(Check check) {
   };
 }
 
-std::string check_positive(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool number = error == std::errc{} && end == text.data() + text.size();
-  return number && std::isfinite(value) && value > 0 ? "" : text + " is not a number above 0";
-}
-
 /// "640x480" as overrides of the image's size.
 void set_size(const std::string& text, std::vector<std::string>& overrides) {
   const auto fields = image_fields();
@@ -88,25 +81,44 @@ void set_size(const std::string& text, std::vector<std::string>& overrides) {
 
 }  // namespace
 
-void add_render_options(CLI::App& command, RenderOptions& options) {
+std::string check_positive(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool number = error == std::errc{} && end == text.data() + text.size();
+  return number && std::isfinite(value) && value > 0 ? "" : text + " is not a number above 0";
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("SCENE", options.scene, "Scene file")->required()->type_name("FILE");
+  command.add_option("--set", options.overrides, "Override any value of the scene: material.clay.roughness=0.6")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option_function<std::string>(
+          "--size", [&options](const std::string& text) { set_size(text, options.overrides); },
+          "Size of the image, pixels")
+      ->type_name("WxH");
+  command.add_option("--threads", options.execution.threads, "Threads; all the machine has if not given")
+      ->check(CLI::Range(1, 1024));
+}
+
+CLI::Option* add_file_option(CLI::App& command, const std::string& name, std::filesystem::path& file,
+                             const std::string& doc) {
+  return command.add_option(name, file, doc)->type_name("FILE")->check(message_of([](const std::string& text) {
+    check_replaceable(text);
+  }));
+}
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+  add_scene_options(command, options);
   command
       .add_option("-o,--output", options.out,
                   "Image to write: .png (displayed picture), .exr or .pfm (linear radiance)")
       ->required()
       ->type_name("FILE")
       ->check(message_of([](const std::string& file) { check_writable(file); }));
-  command.add_option("--set", options.overrides, "Override any value of the scene: material.clay.roughness=0.6")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->take_all();
   for (const auto& field : settings_fields()) std::visit(AddSetting{command, options.overrides, field}, field.member);
-  command
-      .add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { set_size(text, options.overrides); },
-          "Size of the image, pixels")
-      ->type_name("WxH");
-
   CLI::Option* spp = command.get_option("--spp");
   CLI::Option* seconds = command.add_option("--seconds", options.seconds, "Render for this time instead of to --spp");
   CLI::Option* error = command.add_option("--target-error", options.target_error,
@@ -114,8 +126,6 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   seconds->check(check_positive)->type_name("S")->excludes(spp);
   error->check(check_positive)->type_name("RELMSE")->excludes(spp)->excludes(seconds);
 
-  command.add_option("--threads", options.execution.threads, "Threads; all the machine has if not given")
-      ->check(CLI::Range(1, 1024));
   command
       .add_option_function<std::string>(
           "--lanes",
@@ -125,9 +135,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
           "Paths traced side by side in one thread")
       ->check(CLI::IsMember({"1", "native"}))
       ->type_name("N");
-  command.add_option("--stats", options.stats, "Write what the render was and cost as JSON")
-      ->type_name("FILE.json")
-      ->check(message_of([](const std::string& file) { check_replaceable(file); }));
+  add_file_option(command, "--stats", options.stats, "Write what the render was and cost as JSON")
+      ->type_name("FILE.json");
   command.add_flag("--quiet", options.quiet, "No progress and no summary");
 }
 

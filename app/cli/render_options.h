@@ -10,13 +10,28 @@
 
 namespace glimt {
 
-struct RenderOptions {
-  std::filesystem::path scene, out, stats;
+/// What is rendered, and on what.
+struct SceneOptions {
+  std::filesystem::path scene;
   std::vector<std::string> overrides;  ///< for read_scene; those of later options win
-  std::optional<double> seconds, target_error;
   Execution execution;
+};
+
+struct RenderOptions : SceneOptions {
+  std::filesystem::path out, stats;
+  std::optional<double> seconds, target_error;
   bool quiet = false;
 };
+
+/// Declares SCENE, --set, --size and --threads.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+/// Declares an option that names a file to write, refused at once where it cannot be written.
+CLI::Option* add_file_option(CLI::App& command, const std::string& name, std::filesystem::path& file,
+                             const std::string& doc);
+
+/// A check for CLI11: the message where the text is not a finite number above 0.
+std::string check_positive(const std::string& text);
 
 /// Declares the options of `glimt render`; one for every setting of a scene (fields.h).
 void add_render_options(CLI::App& command, RenderOptions& options);

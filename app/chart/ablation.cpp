@@ -1,0 +1,188 @@
+#include "chart/ablation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "scene/fields.h"
+
+namespace glimt {
+namespace {
+
+std::string words(std::string_view key) {
+  std::string text(key);
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
+
+bool has_material(const Scene& scene, bool (*is)(const Material&)) {
+  const auto used = [&](const auto& objects) {
+    return std::ranges::any_of(objects, [&](const auto& object) {
+      const Material* material = find_material(scene, object.material);
+      return material && is(*material);
+    });
+  };
+  return used(scene.spheres) || used(scene.polygons) || used(scene.meshes);
+}
+
+bool is_rough(const Material& m) { return m.type == MaterialType::oren_nayar || m.type == MaterialType::eon; }
+bool is_exact_glass(const Material& m) { return m.type == MaterialType::glass && m.fresnel == Fresnel::exact; }
+bool is_specular(const Material& m) { return m.type == MaterialType::mirror || m.type == MaterialType::glass; }
+
+/// The same scene with every material of a kind changed.
+Scene with_materials(Scene scene, bool (*is)(const Material&), void (*change)(Material&)) {
+  for (Material& material : scene.materials)
+    if (is(material)) change(material);
+  return scene;
+}
+
+/// Values of a numeric setting worth trying.
+std::vector<int> values_to_try(std::string_view key) {
+  if (key == "shadow_rays") return {1, 2, 4, 8, 30};
+  if (key == "max_depth") return {1, 2, 4, 8};
+  return {};
+}
+
+struct AddPieces {
+  const Scene& scene;
+  std::vector<Piece>& pieces;
+  std::string_view key;
+
+  void operator()(const Choice<Settings>& choice) const {
+    if (key == "method" || (key == "caustics" && !has_material(scene, is_specular))) return;
+    for (std::size_t value = 0; value < choice.names.size(); ++value) {
+      if (choice.get(scene.render) == static_cast<int>(value)) continue;
+      Piece piece{words(key) + " " + std::string(choice.names[value]), key == "caustics", scene};
+      choice.set(piece.scene.render, static_cast<int>(value));
+      pieces.push_back(std::move(piece));
+    }
+  }
+  void operator()(int Settings::*member) const {
+    for (const int value : values_to_try(key)) {
+      if (scene.render.*member == value) continue;
+      Piece piece{words(key) + " " + std::to_string(value), key == "max_depth", scene};
+      piece.scene.render.*member = value;
+      pieces.push_back(std::move(piece));
+    }
+  }
+  template <class T>
+  void operator()(T Settings::*) const {}
+};
+
+double seconds_of_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution) {
+  const auto start = std::chrono::steady_clock::now();
+  render_pass(scene, film, count, execution);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Renders both in turn, a part at a time, so that what else the machine does hits both alike. Returns the time of the
+/// first over that of the second.
+double render_both(const CompiledScene& a, Film& film_a, const CompiledScene& b, Film& film_b, const Plan& plan) {
+  constexpr int parts = 4;
+  double seconds_a = 0, seconds_b = 0;
+  for (int part = 1; part <= parts; ++part) {
+    const int count = plan.spp * part / parts - film_a.samples();
+    if (count == 0) continue;
+    seconds_a += seconds_of_pass(a, film_a, count, plan.execution);
+    seconds_b += seconds_of_pass(b, film_b, count, plan.execution);
+  }
+  return seconds_a / seconds_b;
+}
+
+/// What one piece was with each seed.
+struct Series {
+  std::vector<double> time, noise, efficiency, difference;
+};
+
+Ablation summary(const Series& s) {
+  const auto count = static_cast<double>(s.difference.size());
+  double mean = 0, squares = 0;
+  for (const double d : s.difference) mean += d / count;
+  for (const double d : s.difference) squares += (d - mean) * (d - mean);
+  return {quantile(s.time, 0.5),
+          quantile(s.noise, 0.5),
+          quantile(s.efficiency, 0.5),
+          quantile(s.efficiency, 0.25),
+          quantile(s.efficiency, 0.75),
+          mean,
+          std::sqrt(squares / (count - 1) / count)};
+}
+
+}  // namespace
+
+std::vector<Piece> pieces_of(const Scene& scene) {
+  std::vector<Piece> pieces;
+  if (has_material(scene, is_rough))
+    pieces.push_back({"Lambertian for rough materials", true,
+                      with_materials(scene, is_rough, [](Material& m) { m.type = MaterialType::lambertian; })});
+  if (has_material(scene, is_exact_glass))
+    pieces.push_back({"Schlick's Fresnel", true,
+                      with_materials(scene, is_exact_glass, [](Material& m) { m.fresnel = Fresnel::schlick; })});
+  for (const auto& field : settings_fields()) std::visit(AddPieces{scene, pieces, field.key}, field.member);
+  return pieces;
+}
+
+double relmse_of_difference(const Film& a, const Film& b) {
+  constexpr int block = 8;
+  constexpr double dark = 0.01;
+  const Image a0 = a.half_mean(0), a1 = a.half_mean(1), b0 = b.half_mean(0), b1 = b.half_mean(1), mean = b.mean();
+  const int width = mean.width, height = mean.height;
+  double total = 0;
+  for (int y0 = 0; y0 < height; y0 += block)
+    for (int x0 = 0; x0 < width; x0 += block) {
+      const int y1 = std::min(y0 + block, height), x1 = std::min(x0 + block, width);
+      for (std::size_t c = 0; c < 3; ++c) {
+        double sum = 0, products = 0;
+        for (int y = y0; y < y1; ++y)
+          for (int x = x0; x < x1; ++x) {
+            sum += static_cast<double>(mean.pixel(x, y)[c]);
+            products += (static_cast<double>(a0.pixel(x, y)[c]) - static_cast<double>(b0.pixel(x, y)[c])) *
+                        (static_cast<double>(a1.pixel(x, y)[c]) - static_cast<double>(b1.pixel(x, y)[c]));
+          }
+        const double m = sum / ((y1 - y0) * (x1 - x0));
+        total += products / (m * m + dark);
+      }
+    }
+  return total / (3.0 * width * height);
+}
+
+std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& pieces, const Plan& plan,
+                             const std::function<void(double)>& report) {
+  CompiledScene base = compile(scene);
+  std::vector<CompiledScene> changed;
+  for (const Piece& piece : pieces) changed.push_back(compile(piece.scene));
+  std::vector<Series> all(pieces.size());
+  double done = 0;
+  const double work = static_cast<double>(plan.seeds) * static_cast<double>(pieces.size());
+  for (int run = 0; run < plan.seeds; ++run) {
+    base.settings.seed = scene.render.seed + run;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      changed[i].settings.seed = base.settings.seed;
+      Film part = make_film(changed[i]), whole = make_film(base);
+      const double time = render_both(changed[i], part, base, whole, plan);
+      const double noise = relmse_estimate(part) / relmse_estimate(whole);
+      all[i].time.push_back(time);
+      all[i].noise.push_back(noise);
+      all[i].efficiency.push_back(1 / (noise * time));
+      all[i].difference.push_back(relmse_of_difference(part, whole));
+      if (report) report(++done / work);
+    }
+  }
+  std::vector<Ablation> result;
+  for (const Series& series : all) result.push_back(summary(series));
+  return result;
+}
+
+std::string verdict(const Piece& piece, const Ablation& a) {
+  // Five standard errors: with few seeds these are themselves uncertain.
+  const double margin = 5 * a.difference_error;
+  const bool differs = a.difference - margin > visible_difference;
+  const bool same = a.difference + margin < visible_difference;
+  if (piece.model) return differs ? "needed: the image changes" : same ? "not needed here" : "more samples would tell";
+  if (differs) return "changes the image";
+  if (a.efficiency_low > 1.1) return "better";
+  if (a.efficiency_high < 1 / 1.1) return "worse";
+  return "no matter here";
+}
+
+}  // namespace glimt

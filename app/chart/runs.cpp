@@ -1,0 +1,146 @@
+#include "chart/runs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+namespace glimt {
+namespace {
+
+double seconds_of_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution) {
+  const auto start = std::chrono::steady_clock::now();
+  render_pass(scene, film, count, execution);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The first pass also pays for threads, memory and caches: it is not measured.
+void warm_up(std::span<const Variant> variants, const Execution& execution) {
+  for (const Variant& variant : variants) {
+    Film film = make_film(variant.scene);
+    render_pass(variant.scene, film, 1, execution);
+  }
+}
+
+/// A variant's measurements, by sample count.
+std::map<int, std::vector<const Measurement*>> by_spp(std::span<const Measurement> measurements, std::size_t variant) {
+  std::map<int, std::vector<const Measurement*>> found;
+  for (const auto& m : measurements)
+    if (m.variant == variant) found[m.spp].push_back(&m);
+  return found;
+}
+
+template <class Get>
+std::vector<double> values_of(const std::vector<const Measurement*>& measurements, Get get) {
+  std::vector<double> values;
+  for (const Measurement* m : measurements) values.push_back(get(*m));
+  return values;
+}
+
+template <class Get>
+ChartPoint point_of(const std::vector<const Measurement*>& measurements, Get error) {
+  const auto errors = values_of(measurements, error);
+  const auto seconds = values_of(measurements, [](const Measurement& m) { return m.seconds; });
+  return {quantile(seconds, 0.5), quantile(errors, 0.5), quantile(errors, 0.25), quantile(errors, 0.75)};
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+}  // namespace
+
+std::vector<Measurement> measure(std::span<Variant> variants, const Plan& plan, const Image* reference,
+                                 const std::function<void(double)>& report) {
+  warm_up(variants, plan.execution);
+  std::vector<Measurement> measurements;
+  std::vector<int> last(variants.size(), 0);  // samples where a variant ends; 0 while the first seed decides
+  for (int run = 0; run < plan.seeds; ++run) {
+    std::vector<Film> films;
+    std::vector<double> seconds(variants.size(), 0);
+    for (const Variant& variant : variants) films.push_back(make_film(variant.scene));
+    for (bool going = true; going;) {
+      going = false;
+      double time = 0;
+      for (std::size_t i = 0; i < variants.size(); ++i) {
+        Film& film = films[i];
+        const int samples = film.samples();
+        const bool ends =
+            last[i] > 0 ? samples >= last[i] : samples >= plan.spp || (samples > 1 && 2 * seconds[i] > plan.seconds);
+        if (ends) {
+          last[i] = samples;
+          continue;
+        }
+        going = true;
+        const int end = last[i] > 0 ? last[i] : plan.spp;
+        seconds[i] +=
+            seconds_of_pass(variants[i].scene, film, std::min(std::max(1, samples), end - samples), plan.execution);
+        measurements.push_back({i, variants[i].scene.settings.seed, film.samples(), seconds[i], relmse_estimate(film)});
+        if (reference) measurements.back().error = compare(film.mean(), *reference);
+        time = std::max({time, seconds[i] / plan.seconds, static_cast<double>(film.samples()) / plan.spp});
+      }
+      if (report && going) report((run + std::min(time, 1.0)) / plan.seeds);
+    }
+    for (Variant& variant : variants) ++variant.scene.settings.seed;
+  }
+  for (Variant& variant : variants) variant.scene.settings.seed -= plan.seeds;
+  return measurements;
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::ranges::sort(values);
+  const double place = q * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const double above = values[std::min(below + 1, values.size() - 1)], share = place - static_cast<double>(below);
+  return share > 0 ? values[below] + share * (above - values[below]) : values[below];
+}
+
+Outcome outcome(std::span<const Measurement> measurements, std::size_t variant) {
+  const auto all = by_spp(measurements, variant);
+  if (all.empty()) return {};
+  const auto& [spp, last] = *all.rbegin();
+  const auto error = [](const Measurement& m) { return m.error ? m.error->relmse999 : m.relmse_estimate; };
+  return {spp, quantile(values_of(last, [](const Measurement& m) { return m.seconds; }), 0.5),
+          quantile(values_of(last, error), 0.5),
+          quantile(values_of(last, [&](const Measurement& m) { return 1 / (error(m) * m.seconds); }), 0.5)};
+}
+
+Chart error_chart(std::span<const Variant> variants, std::span<const Measurement> measurements) {
+  Chart chart;
+  const bool compared = !measurements.empty() && measurements.front().error.has_value();
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    ChartCurve curve;
+    curve.label = variants[i].label;
+    for (const auto& [spp, at] : by_spp(measurements, i)) {
+      const ChartPoint estimate = point_of(at, [](const Measurement& m) { return m.relmse_estimate; });
+      curve.points.push_back(compared ? point_of(at, [](const Measurement& m) { return m.error->relmse; }) : estimate);
+      if (compared) curve.thin.push_back(estimate);
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  chart.x.label = "rendering time, seconds";
+  chart.y.label = compared ? "error: relmse against the reference" : "error: relmse, estimated from two halves";
+  chart.guide = "equal efficiency: relmse falls as 1/time, its root as time^(−1/2)";
+  chart.notes.emplace_back("Median and quartiles over seeds.");
+  if (compared)
+    chart.notes.emplace_back("Thin line: relmse as the picture's own two halves estimate it, without the reference.");
+  return chart;
+}
+
+std::string measurements_csv(std::span<const Variant> variants, std::span<const Measurement> measurements) {
+  std::string csv = "method,seed,spp,seconds,relmse,relmse999,relmse_estimate\n";
+  for (const auto& m : measurements) {
+    csv += variants[m.variant].name + "," + std::to_string(m.seed) + "," + std::to_string(m.spp) + "," +
+           number(m.seconds) + ",";
+    csv += m.error ? number(m.error->relmse) + "," + number(m.error->relmse999) + "," : ",,";
+    csv += (std::isfinite(m.relmse_estimate) ? number(m.relmse_estimate) : "") + "\n";
+  }
+  return csv;
+}
+
+}  // namespace glimt

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "chart/svg_chart.h"
+#include "film/statistics.h"
+#include "render/render.h"
+
+/// Renderings of one picture in several ways, measured side by side as they grow.
+namespace glimt {
+
+struct Variant {
+  std::string name;     ///< in files: "path:sampler=sobol"
+  std::string label;    ///< for people: "path, sampler sobol"
+  CompiledScene scene;  ///< all of one size
+};
+
+struct Plan {
+  int seeds = 5;
+  int spp = 1 << 24;   ///< at most
+  double seconds = 4;  ///< of rendering for each variant and seed, at most
+  Execution execution{};
+};
+
+struct Measurement {
+  std::size_t variant = 0;
+  int seed = 0;
+  int spp = 0;
+  double seconds = 0;                 ///< wall-clock, of rendering
+  double relmse_estimate = 0;         ///< from the two halves; infinite below two samples
+  std::optional<Comparison> error{};  ///< against the reference, where there is one
+};
+
+/// Renders every variant with plan.seeds seeds from its own on, and measures after 1, 2, 4, ... samples and after the
+/// last. Variants take turns at every step, so that what else the machine does hits all alike; how far each goes is
+/// decided with the first seed. `reference` may be null. `report` is called after each step with the share done.
+std::vector<Measurement> measure(std::span<Variant> variants, const Plan& plan, const Image* reference,
+                                 const std::function<void(double)>& report);
+
+/// Value below which the share `q` of the values lies, interpolated. NaN for none.
+double quantile(std::vector<double> values, double q);
+
+/// The median over seeds of what a variant reached at its last sample count.
+struct Outcome {
+  int spp = 0;
+  double seconds = 0;
+  double error = 0;       ///< relmse999 against the reference, or the estimate
+  double efficiency = 0;  ///< 1 / (error * seconds)
+};
+Outcome outcome(std::span<const Measurement> measurements, std::size_t variant);
+
+/// Error against time: medians and quartiles over seeds. The error is relmse against the reference with the estimate as
+/// thin line, or the estimate alone.
+Chart error_chart(std::span<const Variant> variants, std::span<const Measurement> measurements);
+
+/// One line for each measurement: method, seed, spp, seconds, relmse, relmse999, relmse_estimate; unknown ones empty.
+std::string measurements_csv(std::span<const Variant> variants, std::span<const Measurement> measurements);
+
+}  // namespace glimt
