@@ -121,7 +121,8 @@ void expect_rectangle(LightSampling sampling, unsigned seed) {
                       corner + length_2 * axis_2}}};
   const LampScene lamp(scene, sampling);
   for (const Position& position : positions) {
-    const auto& [name, a, b, h] = position;
+    const char* name = position.name;
+    const double a = position.a, b = position.b, h = position.h;
     const dvec3 from = corner + a * axis_1 + b * axis_2 + h * front;
     const double omega = solid_angle(-a, length_1 - a, -b, length_2 - b, h);
     // RectangleView::small says which are sampled by area all the same.

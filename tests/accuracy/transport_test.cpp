@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -127,8 +128,8 @@ TEST(ClosedForm, SolidLamp) {
   expect_irradiance(scene, [&](const dvec3& p) {
     double sum = 0;
     for (const auto& t : mesh.triangles) {
-      std::vector<dvec3> v;
-      for (const int i : t) v.push_back(mesh.vertices[static_cast<std::size_t>(i)]);
+      std::vector<dvec3> v(3);
+      std::ranges::transform(t, v.begin(), [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; });
       if (dot(cross(v[1] - v[0], v[2] - v[0]), p - v[0]) > 0) sum += lambert_irradiance(v, p, {0, 1, 0});
     }
     return sum;
