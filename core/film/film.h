@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -16,6 +18,23 @@ struct Image {
 
   float* pixel(int x, int y) { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
   const float* pixel(int x, int y) const { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
+};
+
+/// Memory that is zero without being written to, so that a large film is there at once and its pages come as they are
+/// needed.
+template <class T>
+struct ZeroedMemory {
+  using value_type = T;
+
+  T* allocate(std::size_t n) {
+    if (void* memory = std::calloc(n, sizeof(T))) return static_cast<T*>(memory);
+    throw std::bad_alloc();
+  }
+  void deallocate(T* memory, std::size_t) { std::free(memory); }
+  void construct(T*) {}
+  void construct(T* place, const T& value) { *place = value; }
+
+  bool operator==(const ZeroedMemory&) const = default;
 };
 
 /// Sums of radiance per pixel in two independent halves: sample 2k + h of a pixel is sample k of half h. Sums are
@@ -81,7 +100,8 @@ class Film {
   std::uint32_t limit_bits_ = 0;  ///< of the smallest float that does not fit into a sum
   std::uint64_t invalid_ = 0;
   std::uint64_t saturated_ = 0;
-  std::array<std::vector<std::uint64_t>, 2> sums_;  ///< by half; three a pixel, units of 1/scale_, below 2^63
+  std::array<std::vector<std::uint64_t, ZeroedMemory<std::uint64_t>>, 2>
+      sums_;  ///< by half; three a pixel, units of 1/scale_, below 2^63
 };
 
 }  // namespace glimt
