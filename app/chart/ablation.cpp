@@ -151,6 +151,7 @@ std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& piece
                              const std::function<void(double)>& report) {
   CompiledScene base = compile(scene);
   std::vector<CompiledScene> changed;
+  changed.reserve(pieces.size());
   for (const Piece& piece : pieces) changed.push_back(compile(piece.scene));
   std::vector<Series> all(pieces.size());
   double done = 0;
@@ -171,6 +172,7 @@ std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& piece
     }
   }
   std::vector<Ablation> result;
+  result.reserve(all.size());
   for (const Series& series : all) result.push_back(summary(series));
   return result;
 }

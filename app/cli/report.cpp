@@ -39,7 +39,9 @@ int run_report(ReportOptions& options) {
       "this page, with " +
       std::to_string(plan.execution.threads > 0 ? plan.execution.threads : hardware_threads()) + " threads and " +
       std::to_string(native_lane_count()) +
-      " paths side by side in each; those of the report's machine, an Intel Core i7-4790K, are the report's.");
+      " paths side by side in each; those of the report's machine, an Intel Core i7-4790K, are the report's. Times in "
+      "tables are of "
+      "one run each; what else the machine did is in them.");
   if (plan.quick) page.paragraph("A quick run: pictures are small and have few samples, so the figures mean little.");
   add_room(page, plan);
   add_samples(page, plan);
