@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstring>
+#include <bit>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -28,7 +28,7 @@ inline std::vector<float> trace_all(const CompiledScene& scene, int samples, Lan
 /// Number of the first value whose bits differ, or -1. NaN equals itself.
 inline std::ptrdiff_t first_difference(const std::vector<float>& a, const std::vector<float>& b) {
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
-    if (i >= a.size() || i >= b.size() || std::memcmp(&a[i], &b[i], sizeof(float)) != 0)
+    if (i >= a.size() || i >= b.size() || std::bit_cast<std::uint32_t>(a[i]) != std::bit_cast<std::uint32_t>(b[i]))
       return static_cast<std::ptrdiff_t>(i);
   return -1;
 }

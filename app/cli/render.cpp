@@ -11,7 +11,6 @@
 #include "film/file_bytes.h"
 #include "film/metadata.h"
 #include "film/statistics.h"
-#include "scene/fields.h"
 #include "scene/scene_file.h"
 
 namespace glimt {
@@ -28,15 +27,9 @@ void stop_on_interrupt() {
   sigaction(SIGINT, &action, nullptr);
 }
 
-int most_samples() {
-  for (const auto& field : settings_fields())
-    if (field.key == "spp") return static_cast<int>(field.max);
-  throw std::logic_error("no setting spp");
-}
-
 Goal goal_of(const RenderOptions& options, const Settings& settings) {
-  if (options.seconds) return {.spp = most_samples(), .seconds = *options.seconds};
-  if (options.target_error) return {.spp = most_samples(), .relmse_estimate = *options.target_error};
+  if (options.seconds) return {.spp = max_spp, .seconds = *options.seconds};
+  if (settings.target_error > 0) return {.spp = max_spp, .relmse_estimate = settings.target_error};
   return {.spp = settings.spp};
 }
 

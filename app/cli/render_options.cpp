@@ -120,9 +120,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(message_of([](const std::string& file) { check_writable(file); }));
   for (const auto& field : settings_fields()) std::visit(AddSetting{command, options.overrides, field}, field.member);
   CLI::Option* spp = command.get_option("--spp");
+  spp->each([&options](const std::string&) { options.overrides.emplace_back("render.target_error=0"); });
   CLI::Option* seconds = command.add_option("--seconds", options.seconds, "Render for this time instead of to --spp");
-  CLI::Option* error = command.add_option("--target-error", options.target_error,
-                                          "Render until the estimated relative mean squared error is this small");
+  CLI::Option* error = command.get_option("--target-error");
   seconds->check(check_positive)->type_name("S")->excludes(spp);
   error->check(check_positive)->type_name("RELMSE")->excludes(spp)->excludes(seconds);
 

@@ -19,7 +19,7 @@ struct SceneOptions {
 
 struct RenderOptions : SceneOptions {
   std::filesystem::path out, stats;
-  std::optional<double> seconds, target_error;
+  std::optional<double> seconds;
   bool quiet = false;
 };
 

@@ -5,8 +5,11 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "render/session.h"
+#include "viewer/file_watch.h"
+#include "viewer/history.h"
 #include "viewer/snapshot.h"
 #include "viewer/state.h"
 
@@ -16,15 +19,16 @@ namespace glimt {
 /// for rendering.
 class Controller {
  public:
-  /// Starts to render the scene; snapshots are called after `stem`. `wake` is called on other threads when poll() has
-  /// news. Throws SceneError.
-  Controller(Scene scene, std::string stem, const std::function<void()>& wake, Execution execution = {});
+  /// Starts to render the scene, which is from `file`. `wake` is called on other threads when poll() has news. Throws
+  /// SceneError.
+  Controller(Scene scene, std::filesystem::path file, const std::function<void()>& wake, Execution execution = {});
 
   const ViewerState& state() const { return state_; }
-  /// Takes in finished frames and snapshots; true where there was one.
+  /// What the window remembers from its last start. To be called before the first edits.
+  void recall(const Display& display, std::filesystem::path folder, bool show_hint, const std::string& note);
+  /// Takes in finished frames and snapshots, and a scene file that has changed on disk; true where there was one.
   bool poll();
-  /// Carries out edits. One that is refused, and a scene file that cannot be read, change nothing and say why in the
-  /// message.
+  /// Carries out edits. One that is refused, and a file that cannot be read, change nothing and say why in the message.
   void apply(const Edits& edits);
 
  private:
@@ -32,15 +36,27 @@ class Controller {
 
   /// The scene that the frame shows.
   Posted::const_iterator shown() const;
-  void show(Scene scene);
-  void open(const std::filesystem::path& scene_file);
-  void take_wanted_snapshot();
+  Document now() const;
+  void show(std::shared_ptr<const Scene> scene);
+  void show(const std::optional<Document>& document);
+  void edit(const Scene& scene, std::uint64_t gesture);
+  void set_file(std::filesystem::path file);
+  void open(const std::filesystem::path& file);
+  void open_scene(const std::filesystem::path& file);
+  void open_picture(const std::filesystem::path& file);
+  void save(const std::filesystem::path& file);
+  void reload();
+  void want_snapshot(bool radiance);
+  void take_wanted_snapshots();
 
   ViewerState state_;
-  std::string stem_;
+  std::string stem_;                  ///< of snapshots
+  std::shared_ptr<const Scene> now_;  ///< the same as state_.scene
+  History history_;
   Posted posted_;                 ///< back to the one the frame shows
-  bool snapshot_wanted_ = false;  ///< to be taken of the next frame with samples
+  std::vector<Snapshot> wanted_;  ///< of the next frame that holds what they are to show
   SnapshotWriter snapshots_;
+  FileWatch watch_;
   Session session_;
 };
 

@@ -24,9 +24,11 @@ constexpr double widest_slider = 1 << 25;     ///< integers over more than this 
 constexpr double widest_real_slider = 4;  ///< reals over more than this are dragged, in steps of a share of the value
 constexpr const char* typing_hint = "\nDrag, or Ctrl+click to type a number.";
 
+constexpr std::string_view degree_sign = "\u00B0";
+
 /// The least value to allow: just above an excluded limit.
 double lowest(const FieldText& field) {
-  return field.min_excluded ? field.min + (field.max - field.min) * 1e-4 : field.min;
+  return field.min_excluded ? field.min + std::min(field.max - field.min, 1.0) * 1e-4 : field.min;
 }
 
 void begin_field_row(const FieldText& field, bool typed = true) {
@@ -48,6 +50,7 @@ std::string format_of(const FieldText& field, double value) {
     std::snprintf(degrees, sizeof degrees, " (%.1f\u00B0)", glm::degrees(value));
     return "%.3f rad" + std::string(degrees);
   }
+  if (unit == degree_sign) return "%.1f" + std::string(degree_sign);
   return unit.empty() ? "%.3f" : "%.3g " + std::string(unit);
 }
 
@@ -104,7 +107,7 @@ bool edit_real(const FieldText& field, double& value) {
   begin_field_row(field);
   const double low = lowest(field), high = field.max;
   bool changed = false;
-  if (high - low > widest_real_slider) {
+  if (high - low > widest_real_slider && unit_of(field.key) != degree_sign) {
     changed = drag_real(field, value);
   } else {
     changed = slider(value, low, high, format_of(field, value).c_str());
@@ -115,7 +118,11 @@ bool edit_real(const FieldText& field, double& value) {
 bool edit_vector(const FieldText& field, glm::dvec3& value) {
   begin_field_row(field);
   bool changed = false;
-  if (field.max <= 1) {
+  if (field.min < 0) {
+    const double low = field.min, high = field.max;
+    changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, glm::value_ptr(value), 3, 0.02F, &low, &high, "%.2f",
+                                 ImGuiSliderFlags_AlwaysClamp);
+  } else if (field.max <= 1) {
     changed = edit_swatch(value);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "viewer/shown_image.h"
+
 namespace glimt {
 
 ImageView::~ImageView() {
@@ -28,23 +30,29 @@ void ImageView::upload(const Image& image) {
   }
 }
 
-Placement ImageView::draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area,
-                          float ratio) {
-  if (!frame) return {};
+void ImageView::draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area,
+                     const Placement& place) {
+  if (!frame) return;
   if (frame != frame_ || display != display_) {
-    frame_ = frame;
-    display_ = display;
-    upload(frame->mean);
+    if (const auto image = shown_image(frame, display.view)) {
+      frame_ = frame;
+      display_ = display;
+      upload(*image);
+    }
   }
-  const Placement place = place_image(width_, height_, area, ratio);
-  const GLint filter = place.whole ? GL_NEAREST : GL_LINEAR;
+  if (!frame_) return;
+  // A preview has fewer pixels than the picture that it stands for.
+  const bool sharp = place.whole && width_ == frame->size.width;
+  const GLint filter = sharp ? GL_NEAREST : GL_LINEAR;
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   const auto& r = place.rect;
-  ImGui::GetBackgroundDrawList()->AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)),
-                                           {r.x, r.y}, {r.x + r.width, r.y + r.height});
-  return place;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect({area.x, area.y}, {area.x + area.width, area.y + area.height});
+  list.AddImage(std::bit_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_)), {r.x, r.y},
+                {r.x + r.width, r.y + r.height});
+  list.PopClipRect();
 }
 
 }  // namespace glimt

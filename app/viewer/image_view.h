@@ -16,9 +16,10 @@ class ImageView {
   ImageView(const ImageView&) = delete;
   ImageView& operator=(const ImageView&) = delete;
 
-  /// Converts and uploads the frame where it or the display is new, and adds it to what ImGui draws behind all panels.
-  /// `ratio` is framebuffer pixels per window coordinate. Returns its place.
-  Placement draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area, float ratio);
+  /// Converts and uploads the frame where it or the display is new, and adds it to what ImGui draws behind all panels,
+  /// at its place within `area`. A frame that does not hold what is to be shown leaves the last picture there.
+  void draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area,
+            const Placement& place);
 
  private:
   void upload(const Image& image);

@@ -6,7 +6,7 @@
 namespace glimt {
 
 Layout make_layout(float width, float height, float scale) {
-  const float column = std::min(320 * scale, width / 2);
+  const float column = std::min(352 * scale, width / 2);
   const float status = std::min(28 * scale, height / 4);
   Layout layout;
   layout.image = {0, 0, width - column, height - status};
@@ -28,6 +28,51 @@ Placement place_image(int image_width, int image_height, const Rect& area, float
   place.rect.x = std::round((area.x + (area.width - place.rect.width) / 2) * ratio) / ratio;
   place.rect.y = std::round((area.y + (area.height - place.rect.height) / 2) * ratio) / ratio;
   return place;
+}
+
+namespace {
+
+/// Along one axis: the middle of the free space as a share of the picture, so that no space is left empty for nothing.
+float clamped(float share, float free, float picture) {
+  const float half = 0.5F * free / picture;
+  return half >= 0.5F ? 0.5F : std::clamp(share, half, 1 - half);
+}
+
+Zoom looking_at(const Rect& picture, const Rect& area, float zoom) {
+  return {zoom, (area.x + area.width / 2 - picture.x) / picture.width,
+          (area.y + area.height / 2 - picture.y) / picture.height};
+}
+
+}  // namespace
+
+Placement place_image(int image_width, int image_height, const Rect& area, float ratio, const Zoom& zoom) {
+  if (zoom.zoom == 0) return place_image(image_width, image_height, area, ratio);
+  Placement place;
+  place.zoom = zoom.zoom;
+  place.whole = place.zoom == std::floor(place.zoom);
+  place.rect.width = static_cast<float>(image_width) * place.zoom / ratio;
+  place.rect.height = static_cast<float>(image_height) * place.zoom / ratio;
+  const float x = clamped(zoom.x, area.width, place.rect.width), y = clamped(zoom.y, area.height, place.rect.height);
+  place.rect.x = std::round((area.x + area.width / 2 - x * place.rect.width) * ratio) / ratio;
+  place.rect.y = std::round((area.y + area.height / 2 - y * place.rect.height) * ratio) / ratio;
+  return place;
+}
+
+Zoom zoomed(const Placement& place, const Rect& area, float zoom, float x, float y) {
+  const float factor = zoom / place.zoom;
+  Rect picture = place.rect;
+  picture.x = x + (picture.x - x) * factor;
+  picture.y = y + (picture.y - y) * factor;
+  picture.width *= factor;
+  picture.height *= factor;
+  return looking_at(picture, area, zoom);
+}
+
+Zoom moved(const Placement& place, const Rect& area, float dx, float dy) {
+  Rect picture = place.rect;
+  picture.x += dx;
+  picture.y += dy;
+  return looking_at(picture, area, place.zoom);
 }
 
 }  // namespace glimt

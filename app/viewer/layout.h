@@ -28,4 +28,18 @@ struct Placement {
 /// that costs less than a tenth. `ratio` is framebuffer pixels per window coordinate.
 Placement place_image(int image_width, int image_height, const Rect& area, float ratio);
 
+/// How much of the picture is looked at, and where.
+struct Zoom {
+  float zoom = 0;            ///< framebuffer pixels per picture pixel; 0: the picture as large as fits
+  float x = 0.5F, y = 0.5F;  ///< the place in the picture, 0..1, that is in the middle of the free space
+};
+
+/// The picture as `zoom` wants it. It never leaves the free space empty where it could fill it.
+Placement place_image(int image_width, int image_height, const Rect& area, float ratio, const Zoom& zoom);
+
+/// Another magnification that leaves the place of the picture under a point of the window where it is.
+Zoom zoomed(const Placement& place, const Rect& area, float zoom, float x, float y);
+/// The picture moved over the window.
+Zoom moved(const Placement& place, const Rect& area, float dx, float dy);
+
 }  // namespace glimt

@@ -30,6 +30,15 @@ std::string duration(double seconds) {
   return text;
 }
 
+constexpr const char* dash = "\u2013";
+
+/// Of the way to the target, 0..1; the error falls as 1 / samples.
+double share_done(const Settings& settings, const Frame& frame) {
+  if (frame.finished) return 1;
+  if (settings.target_error == 0) return std::min(1.0, static_cast<double>(frame.samples) / settings.spp);
+  return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.relmse_estimate) : 0;
+}
+
 const char* condition(const ViewerState& state) {
   if (state.frame && state.frame->finished) return "done";
   return state.paused ? "paused" : "rendering";
@@ -50,20 +59,25 @@ void draw_progress_panel(const ViewerState& state) {
 
   const Frame none;
   const Frame& frame = state.frame ? *state.frame : none;
-  const int target = state.scene.render.spp;
-  const float share = std::clamp(static_cast<float>(frame.samples) / static_cast<float>(target), 0.0F, 1.0F);
-  ImGui::ProgressBar(share, {-FLT_MIN, style::scaled(6)}, "");
-  text_row("Samples / pixel", std::to_string(frame.samples) + " of " + std::to_string(target),
+  const Settings& settings = state.scene.render;
+  const double share = share_done(settings, frame);
+  ImGui::ProgressBar(static_cast<float>(share), {-FLT_MIN, style::scaled(6)}, "");
+  const std::string of = settings.target_error > 0 ? "" : " of " + std::to_string(settings.spp);
+  text_row("Samples / pixel", std::to_string(frame.samples) + of,
            "Paths traced so far through each pixel, and where rendering stops. Four times as many halve the noise.");
-  text_row("Estimated error",
-           std::isfinite(frame.relmse_estimate) && frame.samples > 1 ? number("%.3g relMSE", frame.relmse_estimate)
-                                                                     : "\u2013",
-           "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
-           "as 1 / "
-           "samples.");
+  const std::string aim = settings.target_error > 0 ? number(" of %.2g relMSE", settings.target_error) : " relMSE";
+  text_row(
+      "Estimated error",
+      std::isfinite(frame.relmse_estimate) && frame.samples > 1 ? number("%.3g", frame.relmse_estimate) + aim : dash,
+      "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
+      "as 1 / "
+      "samples.");
   text_row("Speed", number("%.1f Mpaths/s", frame.paths_per_second / 1e6),
            "Millions of paths from the camera in a second.");
-  text_row("Time", duration(frame.seconds), "Spent rendering since the last change; pauses do not count.");
+  const bool to_come = share > 0 && share < 1;
+  text_row("Time",
+           duration(frame.seconds) + (to_come ? ", " + duration(frame.seconds * (1 / share - 1)) + " to go" : ""),
+           "Spent rendering since the last change, pauses left out, and what the target will take from here.");
 }
 
 }  // namespace glimt

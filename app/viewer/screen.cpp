@@ -3,9 +3,11 @@
 #include <GL/gl.h>
 #include <backends/imgui_impl_opengl2.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "viewer/layout.h"
 #include "viewer/panels.h"
@@ -57,11 +59,20 @@ void Screen::draw(const ViewerState& state, float scale, Edits& edits) {
   ImGui::NewFrame();
   widgets_.clear();
 
+  follow_gesture(edits);
   const Layout layout = make_layout(io.DisplaySize.x, io.DisplaySize.y, scale);
-  const Placement picture = image_->draw(state.frame, state.display, layout.image, ratio);
+  const Placement picture =
+      place_image(state.scene.image.width, state.scene.image.height, layout.image, ratio, tool_.zoom());
+  image_->draw(state.frame, state.display, layout.image, picture);
+  tool_.draw_outline(state, layout.image, picture);
   widgets_["image"] = picture.rect;
+  tool_.take_mouse(state, layout.image, picture, edits);
+  if (state.hint && state.frame) draw_hint(layout.image);
   draw_column(state, layout.column, edits);
   draw_status(state, layout.status, picture);
+  files_.draw(layout.image, edits);
+  if (help_ && draw_help_panel(layout.image)) help_ = false;
+  selected_ = state.selected;
 
   ImGui::Render();
   const ImVec4 backdrop = ImColor(style::backdrop);
@@ -71,6 +82,28 @@ void Screen::draw(const ViewerState& state, float scale, Edits& edits) {
   ImGui_ImplOpenGL2_RenderDrawData(ImGui::GetDrawData());
 }
 
+void Screen::follow_gesture(Edits& edits) {
+  constexpr double pause_between_scrolls = 0.5;  // seconds
+  const ImGuiIO& io = ImGui::GetIO();
+  const unsigned active = ImGui::GetCurrentContext()->ActiveId;
+  const double now = ImGui::GetTime();
+  bool other = active != active_ || ImGui::IsMouseClicked(ImGuiMouseButton_Left) ||
+               ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
+  if (io.MouseWheel != 0) other |= now - std::exchange(last_scroll_, now) > pause_between_scrolls;
+  active_ = active;
+  if (other) ++gesture_;
+  edits.gesture = gesture_;
+}
+
+void Screen::escape(Edits& edits) {
+  if (help_ || files_.is_open()) {
+    help_ = false;
+    files_.close();
+  } else {
+    edits.select = std::optional<ObjectId>();
+  }
+}
+
 void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edits) {
   place_window(place);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(16), style::scaled(14)});
@@ -78,18 +111,64 @@ void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edi
   ImGui::PopStyleVar();
   draw_progress_panel(state);
   ImGui::Dummy({0, style::scaled(2)});
-  draw_actions_panel(state, edits);
-  ImGui::Dummy({0, style::scaled(2)});
-  ImGui::Separator();
-
-  // What does not fit scrolls, below progress and buttons, which stay.
-  ImGui::BeginChild("knobs");
-  ImGui::Dummy({0, style::scaled(1)});
+  Requests requests;
+  draw_actions_panel(state, edits, requests);
+  if (requests.open) files_.show(FilesPanel::Purpose::open, state);
+  if (requests.save) files_.show(FilesPanel::Purpose::save, state);
+  ImGui::Dummy({0, style::scaled(4)});
   draw_display_panel(state, edits);
-  draw_spheres_panel(state, edits);
-  draw_settings_panel(state, edits);
-  ImGui::EndChild();
+  ImGui::Dummy({0, style::scaled(4)});
+  draw_tabs(state, edits);
   ImGui::End();
+}
+
+void Screen::draw_tabs(const ViewerState& state, Edits& edits) {
+  struct Tab {
+    const char *label, *name;
+    void (*draw)(const ViewerState&, Edits&);
+  };
+  static constexpr Tab tabs[]{
+      {"Objects", "tab.objects", draw_objects_panel},
+      {"Lamp", "tab.lamp", draw_lamp_panel},
+      {"Camera", "tab.camera", draw_camera_panel},
+      {"Estimator", "tab.estimator", draw_estimator_panel},
+      {"Scene", "tab.scene", [](const ViewerState& s, Edits&) { draw_scene_panel(s); }},
+  };
+  // A click on an object in the picture brings its panel up.
+  const bool to_objects = state.selected && state.selected != selected_;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style::scaled(7), style::scaled(5)});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {style::scaled(2), style::scaled(4)});
+  const bool bar = ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown);
+  ImGui::PopStyleVar(2);
+  if (!bar) return;
+  for (const Tab& tab : tabs) {
+    const bool bring_up = to_objects && &tab == tabs;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style::scaled(7), style::scaled(5)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {style::scaled(2), style::scaled(4)});
+    const bool open = ImGui::BeginTabItem(tab.label, nullptr, bring_up ? ImGuiTabItemFlags_SetSelected : 0);
+    ImGui::PopStyleVar(2);
+    note_widget(tab.name);
+    if (!open) continue;
+    // What does not fit scrolls, below progress and buttons, which stay.
+    ImGui::BeginChild("knobs");
+    ImGui::Dummy({0, style::scaled(1)});
+    tab.draw(state, edits);
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+  }
+  ImGui::EndTabBar();
+}
+
+void Screen::draw_hint(const Rect& area) const {
+  const char* line = "Click an object, drag to look around, scroll to come closer. F1 for more.";
+  const std::string text = fit_text(line, area.width - style::scaled(48));
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 at{area.x + (area.width - size.x) / 2, area.y + area.height - size.y - style::scaled(24)};
+  const ImVec2 pad{style::scaled(14), style::scaled(8)};
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + size.x + pad.x, at.y + size.y + pad.y},
+                     IM_COL32(15, 16, 18, 205), style::scaled(6));
+  list.AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 void Screen::draw_status(const ViewerState& state, const Rect& place, const Placement& picture) {
@@ -100,18 +179,19 @@ void Screen::draw_status(const ViewerState& state, const Rect& place, const Plac
 
   std::string size;
   if (state.frame) {
-    size = std::to_string(state.frame->mean.width) + " \u00D7 " + std::to_string(state.frame->mean.height) + " at " +
-           std::to_string(std::lround(picture.zoom * 100)) + " %";
+    size = std::to_string(state.frame->size.width) + " \u00D7 " + std::to_string(state.frame->size.height) + " at " +
+           std::to_string(std::lround(picture.zoom * 100)) + " %     F1 help";
   }
   const float width = ImGui::GetContentRegionAvail().x;
   const float size_width = ImGui::CalcTextSize(size.c_str()).x;
   const bool hint = state.message.text.empty();
-  const std::string line = hint ? "space  pause     R  restart     S  snapshot     Esc  quit" : state.message.text;
+  const std::string line = hint ? "Space  pause     S  snapshot     Ctrl+Z  undo     Ctrl+O  open" : state.message.text;
   const ImU32 colour = hint ? style::muted : state.message.error ? style::error : ImGui::GetColorU32(ImGuiCol_Text);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(fit_text(line, width - size_width - style::scaled(16)).c_str());
   ImGui::PopStyleColor();
   note_widget("message");
+  note_widget("says." + line);
   if (!hint) tooltip(line);
   ImGui::SameLine(ImGui::GetCursorPosX() + width - size_width);
   ImGui::TextDisabled("%s", size.c_str());

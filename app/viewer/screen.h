@@ -1,5 +1,7 @@
 #pragma once
 
+#include "viewer/files_panel.h"
+#include "viewer/image_tool.h"
 #include "viewer/image_view.h"
 #include "viewer/state.h"
 #include "viewer/widgets.h"
@@ -21,14 +23,32 @@ class Screen {
   /// Where the controls of the last draw() are.
   const WidgetRects& widgets() const { return widgets_; }
 
+  // What keys do to the screen itself.
+  void toggle_help() { help_ = !help_; }
+  void show_files(FilesPanel::Purpose purpose, const ViewerState& state) { files_.show(purpose, state); }
+  void fit_picture() { tool_.fit(); }
+  void show_pixel_by_pixel() { tool_.set_zoom(1); }
+  /// Closes the sheets over the picture, or selects nothing.
+  void escape(Edits& edits);
+
  private:
   void draw_column(const ViewerState& state, const Rect& place, Edits& edits);
+  void draw_tabs(const ViewerState& state, Edits& edits);
   void draw_status(const ViewerState& state, const Rect& place, const Placement& picture);
+  void draw_hint(const Rect& area) const;
   void set_scale(float scale, float ratio);
+  void follow_gesture(Edits& edits);
 
   WidgetRects widgets_;
   std::unique_ptr<ImageView> image_;
+  ImageTool tool_;
+  FilesPanel files_;
+  bool help_ = false;
+  std::optional<ObjectId> selected_;  ///< in the last picture
   float scale_ = 0, ratio_ = 0;
+  std::uint64_t gesture_ = 1;
+  unsigned active_ = 0;      ///< ImGui's active control in the last picture
+  double last_scroll_ = -1;  ///< ImGui's time, seconds
 };
 
 }  // namespace glimt

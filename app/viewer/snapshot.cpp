@@ -8,16 +8,21 @@
 
 #include "film/image_file.h"
 #include "film/metadata.h"
+#include "viewer/shown_image.h"
 
 namespace glimt {
 namespace {
 
 Message write_now(const Snapshot& snapshot, const std::string& stem) {
   try {
-    const auto file = reserve_snapshot_file(".", stem);
+    const auto file = reserve_snapshot_file(".", stem, snapshot.radiance ? "exr" : "png");
     try {
-      write_png(file, snapshot.frame->mean, snapshot.display,
-                render_metadata(*snapshot.scene, snapshot.frame->samples, snapshot.frame->seconds));
+      const Frame& frame = *snapshot.frame;
+      const Metadata metadata = render_metadata(*snapshot.scene, frame.samples, frame.seconds);
+      if (snapshot.radiance)
+        write_exr(file, frame.mean, frame.error, metadata);
+      else
+        write_png(file, *shown_image(snapshot.frame, snapshot.display.view), snapshot.display, metadata);
     } catch (...) {
       std::error_code ignored;
       std::filesystem::remove(file, ignored);
@@ -32,11 +37,18 @@ Message write_now(const Snapshot& snapshot, const std::string& stem) {
 
 }  // namespace
 
-std::filesystem::path reserve_snapshot_file(const std::filesystem::path& folder, const std::string& stem) {
+bool is_complete(const Snapshot& snapshot) {
+  // A preview holds no samples that a reopened snapshot could come back to.
+  if (!snapshot.frame || snapshot.frame->samples == 0) return false;
+  return shown_image(snapshot.frame, snapshot.radiance ? View::error : snapshot.display.view) != nullptr;
+}
+
+std::filesystem::path reserve_snapshot_file(const std::filesystem::path& folder, const std::string& stem,
+                                            const std::string& ending) {
   for (int n = 1;; ++n) {
     char number[16];
-    std::snprintf(number, sizeof number, "-%03d.png", n);
-    auto file = folder / (stem + number);
+    std::snprintf(number, sizeof number, "-%03d.", n);
+    auto file = folder / (stem + number + ending);
     if (std::FILE* created = std::fopen(file.c_str(), "wbx")) {
       std::fclose(created);
       return file;

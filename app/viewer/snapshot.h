@@ -18,11 +18,16 @@ struct Snapshot {
   std::shared_ptr<const Frame> frame;
   std::shared_ptr<const Scene> scene;  ///< the one that the frame shows
   Display display;
+  bool radiance = false;  ///< as EXR, not as PNG
 };
 
-/// Creates the first of STEM-001.png, STEM-002.png, ... in the folder that does not exist yet, empty, so that nobody
-/// else takes it. Throws ImageFileError.
-std::filesystem::path reserve_snapshot_file(const std::filesystem::path& folder, const std::string& stem);
+/// Whether the frame holds what the snapshot is to show.
+bool is_complete(const Snapshot& snapshot);
+
+/// Creates the first of STEM-001.ENDING, STEM-002.ENDING, ... in the folder that does not exist yet, empty, so that
+/// nobody else takes it. Throws ImageFileError.
+std::filesystem::path reserve_snapshot_file(const std::filesystem::path& folder, const std::string& stem,
+                                            const std::string& ending);
 
 /// Writes snapshots in the background. The destructor waits until all are written.
 class SnapshotWriter {
@@ -30,7 +35,7 @@ class SnapshotWriter {
   /// `wake` is called on another thread when a message is there.
   explicit SnapshotWriter(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Writes STEM-NNN.png into the current folder, never over another file.
+  /// Writes STEM-NNN.png or .exr into the current folder, never over another file.
   void write(Snapshot snapshot, std::string stem);
   /// What has become of the last one, once.
   std::optional<Message> take_message();

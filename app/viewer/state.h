@@ -8,6 +8,7 @@
 
 #include "film/display.h"
 #include "render/session.h"
+#include "scene/pick.h"
 #include "scene/scene.h"
 
 namespace glimt {
@@ -20,10 +21,16 @@ struct Message {
 
 /// All that the panels show. They read it; the controller alone changes it.
 struct ViewerState {
-  Scene scene;                ///< as edited; the frame may still show the one before
-  std::uint64_t version = 0;  ///< of the scene; frames of this or a later one show it
+  Scene scene;                                    ///< as edited; the frame may still show the one before
+  std::uint64_t version = 0;                      ///< of the scene; frames of this or a later one show it
+  std::shared_ptr<const CompiledScene> compiled;  ///< of the scene
+  Camera opened_camera;                           ///< as it was in the file, to come back to
+  std::filesystem::path file;                     ///< that the scene is from; empty for a picture's scene
+  std::filesystem::path folder;                   ///< last looked into for files
+  std::optional<ObjectId> selected;               ///< always one of the scene
   Display display;
-  bool paused = false;
+  bool paused = false, can_undo = false, can_redo = false;
+  bool hint = false;                   ///< the line for somebody's first start is shown
   std::shared_ptr<const Frame> frame;  ///< the newest; null before the first
   Message message;
 };
@@ -31,11 +38,18 @@ struct ViewerState {
 /// What a person asked for while one picture of the window was drawn.
 struct Edits {
   std::optional<Scene> scene;
+  std::uint64_t gesture =
+      0;  ///< edits of the scene that follow each other in one gesture, as in a drag, are undone as one
   std::optional<Display> display;
-  std::optional<std::filesystem::path> open;  ///< another scene file
+  std::optional<std::optional<ObjectId>> select;  ///< an object, or none
+  std::optional<std::filesystem::path> open;      ///< a scene file, or a picture that glimt has written
+  std::optional<std::filesystem::path> save;      ///< a scene file to write, over one that is there
+  std::optional<std::filesystem::path> folder;
   bool toggle_pause = false;
   bool restart = false;
-  bool snapshot = false;
+  bool undo = false, redo = false;
+  bool snapshot = false, snapshot_exr = false;
+  bool dismiss_hint = false;
   bool quit = false;
 
   /// The scene to write an edit into.

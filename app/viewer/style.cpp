@@ -49,6 +49,10 @@ void set_colours(ImGuiStyle& s) {
   s.Colors[ImGuiCol_Header] = grey(50, 54, 62);
   s.Colors[ImGuiCol_HeaderHovered] = grey(58, 62, 71);
   s.Colors[ImGuiCol_HeaderActive] = grey(70, 75, 86);
+  s.Colors[ImGuiCol_Tab] = s.Colors[ImGuiCol_TabUnfocused] = grey(34, 36, 41);
+  s.Colors[ImGuiCol_TabHovered] = grey(64, 69, 79);
+  s.Colors[ImGuiCol_TabActive] = s.Colors[ImGuiCol_TabUnfocusedActive] = grey(58, 62, 71);
+  s.Colors[ImGuiCol_TextSelectedBg] = ImColor(fill);
   s.Colors[ImGuiCol_SliderGrab] = accent;
   s.Colors[ImGuiCol_SliderGrabActive] = accent_bright;
   s.Colors[ImGuiCol_CheckMark] = accent;
@@ -73,6 +77,7 @@ void apply(float scale, float ratio) {
   s.WindowRounding = s.ChildRounding = 0;
   s.FrameRounding = s.PopupRounding = s.ScrollbarRounding = 4;
   s.GrabRounding = 3;
+  s.TabRounding = 4;
   s.WindowBorderSize = s.ChildBorderSize = 0;
   s.PopupBorderSize = 1;
   current_scale = scale;

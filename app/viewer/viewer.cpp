@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <iostream>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "scene/scene_file.h"
@@ -15,40 +15,70 @@
 #include "viewer/logs.h"
 #include "viewer/screen.h"
 #include "viewer/window.h"
+#include "viewer/window_settings.h"
 
 namespace glimt {
 namespace {
 
 /// ImGui needs some pictures after the last event until menus and tooltips stand.
-constexpr int pictures_to_settle = 3;
+constexpr int pictures_to_settle = 6;
 
 /// What has come in from the window since the last picture.
 struct Inbox {
+  Screen* screen = nullptr;
+  const ViewerState* state = nullptr;
   Edits edits;
   bool touched = true;
 };
 
 Inbox& inbox(GLFWwindow* window) { return *static_cast<Inbox*>(glfwGetWindowUserPointer(window)); }
 
-bool is_letter(int key, int scancode, std::string_view letter) {
-  const char* name = glfwGetKeyName(key, scancode);  // of this keyboard's layout
-  return name != nullptr && name == letter;
+View next(View view) { return view == View::samples ? View::image : static_cast<View>(static_cast<int>(view) + 1); }
+
+void on_letter(Inbox& in, char letter, bool control, bool shift) {
+  using Purpose = FilesPanel::Purpose;
+  Edits& edits = in.edits;
+  if (control) {
+    if (letter == 'q') edits.quit = true;
+    if (letter == 'z' && !shift) edits.undo = true;
+    if (letter == 'y' || (letter == 'z' && shift)) edits.redo = true;
+    if (letter == 'o') in.screen->show_files(Purpose::open, *in.state);
+    if (letter == 's') in.screen->show_files(Purpose::save, *in.state);
+    return;
+  }
+  if (letter == 'r') edits.restart = true;
+  if (letter == 's') (shift ? edits.snapshot_exr : edits.snapshot) = true;
+  if (letter == 'f') in.screen->fit_picture();
+  if (letter == '1') in.screen->show_pixel_by_pixel();
+  if (letter == 'v') {
+    edits.display = in.state->display;
+    edits.display->view = next(edits.display->view);
+  }
 }
 
 void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
   Inbox& in = inbox(window);
   in.touched = true;
   if (action != GLFW_PRESS) return;
-  const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
-  if (control && is_letter(key, scancode, "q")) in.edits.quit = true;
-
   const ImGuiIO& io = ImGui::GetIO();
+  const bool control = (modifiers & GLFW_MOD_CONTROL) != 0, shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+  const char* name = glfwGetKeyName(key, scancode);  // of this keyboard's layout
+  const char letter = name != nullptr && name[0] != '\0' && name[1] == '\0' ? name[0] : '\0';
   const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-  if (io.WantTextInput || io.NavVisible || popup || control) return;
-  if (key == GLFW_KEY_ESCAPE) in.edits.quit = true;
-  if (key == GLFW_KEY_SPACE) in.edits.toggle_pause = true;
-  if (is_letter(key, scancode, "r")) in.edits.restart = true;
-  if (is_letter(key, scancode, "s")) in.edits.snapshot = true;
+  if (key == GLFW_KEY_F1) in.screen->toggle_help();
+  if (key == GLFW_KEY_ESCAPE && !popup) in.screen->escape(in.edits);
+  if (io.WantTextInput || popup) {
+    if (control && letter == 'q') in.edits.quit = true;
+    return;
+  }
+  on_letter(in, letter, control, shift);
+  if (key == GLFW_KEY_SPACE && !io.NavVisible) in.edits.toggle_pause = true;
+  if (key == GLFW_KEY_HOME) in.edits.edit(*in.state).camera = in.state->opened_camera;
+}
+
+void on_character(GLFWwindow* window, unsigned character) {
+  inbox(window).touched = true;
+  if (character == '?' && !ImGui::GetIO().WantTextInput) inbox(window).screen->toggle_help();
 }
 
 void on_drop(GLFWwindow* window, int count, const char** paths) {
@@ -60,7 +90,7 @@ void set_callbacks(GLFWwindow* window, Inbox& in) {
   glfwSetWindowUserPointer(window, &in);
   glfwSetKeyCallback(window, on_key);
   glfwSetDropCallback(window, on_drop);
-  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { inbox(w).touched = true; });
+  glfwSetCharCallback(window, on_character);
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { inbox(w).touched = true; });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { inbox(w).touched = true; });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { inbox(w).touched = true; });
@@ -91,14 +121,32 @@ void wait(double next_picture, bool settled) {
   glfwPollEvents();
 }
 
+/// Remembers the window for its next start. Not to be able to is no reason to fail.
+void remember(const Window& window, const ViewerState& state) {
+  const auto file = window_settings_file();
+  if (file.empty()) return;
+  WindowSettings settings{.display = state.display, .folder = state.folder, .hint_seen = !state.hint};
+  window.size(settings.width, settings.height);
+  try {
+    write_window_settings(file, settings);
+  } catch (const std::exception& error) {
+    std::cerr << "glimt: " << error.what() << '\n';
+  }
+}
+
 void run(const std::filesystem::path& scene_file) {
   Scene scene = read_scene(scene_file);
+  std::string note;
+  const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
-  Controller controller(std::move(scene), scene_file.stem().string(), [] { glfwPostEmptyEvent(); });
-  const Window window;
+  Controller controller(std::move(scene), scene_file, [] { glfwPostEmptyEvent(); });
+  controller.recall(settings.display, settings.folder, !settings.hint_seen, note);
+  const Window window(settings.width, settings.height);
   Inbox in;
   set_callbacks(window.handle(), in);
   Screen screen;
+  in.screen = &screen;
+  in.state = &controller.state();
   const Platform platform(window.handle());
   Logs logs;
 
@@ -106,7 +154,9 @@ void run(const std::filesystem::path& scene_file) {
   int unsettled = pictures_to_settle;
   while (!in.edits.quit) {
     wait(next_picture, unsettled == 0);
-    if (controller.poll()) unsettled = std::max(unsettled, 1);
+    const std::string said = controller.state().message.text;
+    if (controller.poll())
+      unsettled = std::max(unsettled, controller.state().message.text == said ? 1 : pictures_to_settle);
     if (std::exchange(in.touched, false)) unsettled = pictures_to_settle;
     if (window.hidden()) unsettled = 0;
     if (unsettled == 0) continue;
@@ -121,6 +171,7 @@ void run(const std::filesystem::path& scene_file) {
     controller.apply(std::exchange(in.edits, {}));
     in.edits.quit = quit;
   }
+  remember(window, controller.state());
 }
 
 }  // namespace

@@ -58,6 +58,34 @@ bool slider(int& value, int low, int high, bool logarithmic) {
   return ImGui::SliderInt("##value", &value, low, high, "%d", flags | ImGuiSliderFlags_AlwaysClamp);
 }
 
+bool logarithmic_slider(double& value, double low, double high, const char* unit) {
+  const Bar bar(0, std::log(std::max(value, low) / low) / std::log(high / low));
+  // As many digits as ImGui needs to tell the lowest value from 0.
+  const int digits = static_cast<int>(std::ceil(-std::log10(low)));
+  const std::string format = "%." + std::to_string(digits) + "g" + unit;
+  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format.c_str(),
+                                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  if (!changed) return false;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {  // by the mouse two digits are enough; others can be typed
+    const double place = std::pow(10, std::floor(std::log10(std::max(value, low))) - 1);
+    value = std::round(value / place) * place;
+  }
+  value = std::clamp(value, low, high);
+  return true;
+}
+
+void wrapped_text(const std::string& text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void muted_text(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, style::muted);
+  wrapped_text(text);
+  ImGui::PopStyleColor();
+}
+
 void note_widget(const std::string& name) {
   if (auto* rects = static_cast<WidgetRects*>(ImGui::GetIO().UserData)) {
     const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
@@ -105,7 +133,7 @@ void place_beside_controls() {
 }
 
 void tooltip(std::string_view tip) {
-  if (tip.empty() || !ImGui::IsItemHovered()) return;
+  if (tip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   place_beside_controls();
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(style::scaled(280));
@@ -116,6 +144,7 @@ void tooltip(std::string_view tip) {
 
 std::string fit_text(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  if (auto* rects = static_cast<WidgetRects*>(ImGui::GetIO().UserData)) (*rects)["cut." + text] = {};
   const std::string ellipsis = "...";
   const float room = width - ImGui::CalcTextSize(ellipsis.c_str()).x;
   const char* end = text.c_str();

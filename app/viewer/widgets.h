@@ -11,7 +11,8 @@
 /// Pieces that all panels are made of.
 namespace glimt {
 
-/// Where controls were drawn, by name: "pause", "render.spp", "sphere.glass.material".
+/// Where controls were drawn, by name: "pause", "render.spp", "object.type"; "says.TEXT" is the status line, and
+/// "cut.TEXT" is text that did not fit.
 using WidgetRects = std::map<std::string, Rect>;
 
 /// Notes the place of the control drawn last, where the screen asked for it.
@@ -30,6 +31,13 @@ void begin_row(const std::string& label, std::string_view tip);
 /// where the value was changed, always to one in low..high.
 bool slider(double& value, double low, double high, const char* format);
 bool slider(int& value, int low, int high, bool logarithmic);
+
+/// The same for values of any size, each factor as wide as another; low < 1.
+bool logarithmic_slider(double& value, double low, double high, const char* unit);
+
+/// Text that goes on in the next line where the column ends; muted: as hints are.
+void wrapped_text(const std::string& text);
+void muted_text(const std::string& text);
 
 /// A row of text.
 void text_row(const std::string& label, const std::string& value, std::string_view tip);

@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -25,13 +26,12 @@ WindowSystem::WindowSystem() {
 
 WindowSystem::~WindowSystem() { glfwTerminate(); }
 
-Window::Window() {
+Window::Window(int width_wanted, int height_wanted) {
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "glimt");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "glimt");
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  // Leaves 960 x 800 for the picture, in which 400 x 400 pixels are exactly doubled.
-  handle_ = glfwCreateWindow(1280, 828, "glimt", nullptr, nullptr);
+  handle_ = glfwCreateWindow(width_wanted, height_wanted, "glimt", nullptr, nullptr);
   if (handle_ == nullptr) fail();
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
     int x = 0, y = 0, free_width = 0, free_height = 0, width = 0, height = 0;
@@ -51,7 +51,15 @@ Window::~Window() { glfwDestroyWindow(handle_); }
 bool Window::hidden() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(handle_, &width, &height);
-  return width == 0 || height == 0 || glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE;
+  // Not every window manager says that it has minimised a window that it takes away.
+  return width == 0 || height == 0 || glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE ||
+         glfwGetWindowAttrib(handle_, GLFW_VISIBLE) == GLFW_FALSE;
+}
+
+void Window::size(int& width, int& height) const {
+  glfwGetWindowSize(handle_, &width, &height);
+  width = static_cast<int>(std::lround(static_cast<float>(width) / scale()));
+  height = static_cast<int>(std::lround(static_cast<float>(height) / scale()));
 }
 
 float Window::scale() const {

@@ -13,10 +13,12 @@ class WindowSystem {
   WindowSystem& operator=(const WindowSystem&) = delete;
 };
 
-/// A window with an OpenGL context, which it makes current. Throws std::runtime_error where none can be opened.
+/// A window with an OpenGL context, which it makes current.
 class Window {
  public:
-  Window();
+  /// Of this size, in units of design, or as large as the screen allows. Throws std::runtime_error where none can be
+  /// opened.
+  Window(int width, int height);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -24,6 +26,8 @@ class Window {
   GLFWwindow* handle() const { return handle_; }
   /// Nothing can be seen, for example when minimised.
   bool hidden() const;
+  /// In units of design.
+  void size(int& width, int& height) const;
   /// Window coordinates per unit of design: what the screen asks for, less what the framebuffer does already.
   float scale() const;
   /// Least time between two pictures, seconds: the display shows no more.

@@ -1,8 +1,12 @@
 #include "film/display.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
+
+#include "scene/text.h"
 
 namespace glimt {
 namespace {
@@ -47,17 +51,103 @@ class SrgbTable {
   std::array<std::uint8_t, std::size_t{13} * 128> bins_{};  ///< code at the lower edge of each bin
 };
 
+constexpr std::array<std::string_view, 2> tone_names{"linear", "filmic"};
+constexpr std::array<std::string_view, 3> view_names{"image", "error", "samples"};
+
+const std::array<Field<Display>, 3> display_table{{
+    {"exposure", "brightness of the picture: 1 EV more is twice as bright", &Display::exposure, -32, 32},
+    {"tone", "how bright values are brought into range: linear and clipped, or with a film's soft shoulder",
+     Choice<Display>{tone_names, [](const Display& d) { return static_cast<int>(d.tone); },
+                     [](Display& d, int value) { d.tone = static_cast<Tone>(value); }}},
+    {"view", "what is shown: the image, its standard error, or the number of samples per pixel",
+     Choice<Display>{view_names, [](const Display& d) { return static_cast<int>(d.view); },
+                     [](Display& d, int value) { d.view = static_cast<View>(value); }}},
+}};
+
+float filmic(float x) {
+  // Where the curve is above 1 already, and products do not overflow. A NaN stays one.
+  const float v = std::min(std::max(x, 0.0f), 1e3f);
+  return v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f);
+}
+
+/// From dark to bright, evenly enough that steps are seen everywhere. 8-bit sRGB.
+constexpr std::array<std::array<float, 3>, 5> scale_stops{
+    {{14, 15, 34}, {52, 52, 140}, {176, 58, 116}, {244, 148, 62}, {255, 250, 205}}};
+
+std::vector<std::uint8_t> on_colour_scale(const Image& image, const ColourScale& scale, float factor) {
+  const auto low = static_cast<float>(std::log2(scale.low));
+  const auto octaves = static_cast<float>(std::log2(scale.high / scale.low));
+  const auto pixels = static_cast<std::ptrdiff_t>(image.rgb.size() / 3);
+  std::vector<std::uint8_t> bytes(image.rgb.size());
+#pragma omp parallel for if (pixels > (1 << 18))
+  for (std::ptrdiff_t i = 0; i < pixels; ++i) {
+    const float* rgb = image.rgb.data() + 3 * i;
+    const float value = factor * (rgb[0] + rgb[1] + rgb[2]) / 3;
+    const auto colour = scale_colour((std::log2(value) - low) / octaves);
+    std::copy(colour.begin(), colour.end(), bytes.data() + 3 * i);
+  }
+  return bytes;
+}
+
 }  // namespace
+
+std::span<const Field<Display>> display_fields() { return display_table; }
+
+std::map<std::string, std::string> display_texts(const Display& display) {
+  std::map<std::string, std::string> texts;
+  for (const auto& field : display_table) {
+    const auto* choice = std::get_if<Choice<Display>>(&field.member);
+    texts[std::string(field.key)] = choice ? std::string(choice->names[static_cast<std::size_t>(choice->get(display))])
+                                           : number_text(display.*std::get<double Display::*>(field.member));
+  }
+  return texts;
+}
+
+Display read_display(const std::map<std::string, std::string>& texts) {
+  Display display;
+  for (const auto& field : display_table) {
+    const auto found = texts.find(std::string(field.key));
+    if (found == texts.end()) continue;
+    const std::string& text = found->second;
+    if (const auto* choice = std::get_if<Choice<Display>>(&field.member)) {
+      const auto name = std::ranges::find(choice->names, text);
+      if (name != choice->names.end()) choice->set(display, static_cast<int>(name - choice->names.begin()));
+    } else {
+      double value = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error == std::errc{} && value >= field.min && value <= field.max)
+        display.*std::get<double Display::*>(field.member) = value;
+    }
+  }
+  return display;
+}
+
+ColourScale colour_scale(View view) { return view == View::samples ? ColourScale{1, 1 << 16} : ColourScale{0.001, 10}; }
+
+std::array<std::uint8_t, 3> scale_colour(float share) {
+  const float at = share > 0 ? std::min(share, 1.0f) * (scale_stops.size() - 1) : 0;
+  const auto stop = std::min(static_cast<std::size_t>(at), scale_stops.size() - 2);
+  const float rest = at - static_cast<float>(stop);
+  std::array<std::uint8_t, 3> colour{};
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<std::uint8_t>(
+        std::lround(scale_stops[stop][c] + rest * (scale_stops[stop + 1][c] - scale_stops[stop][c])));
+  return colour;
+}
 
 std::vector<std::uint8_t> to_srgb8(const Image& image, const Display& display) {
   static const SrgbTable table;
   const float factor = std::exp2(static_cast<float>(display.exposure));
+  if (display.view != View::image)
+    return on_colour_scale(image, colour_scale(display.view), display.view == View::error ? factor : 1);
+  const bool soft = display.tone == Tone::filmic;
   const auto values = static_cast<std::ptrdiff_t>(image.rgb.size());
   std::vector<std::uint8_t> bytes(image.rgb.size());
 #pragma omp parallel for if (values > (1 << 21))
   for (std::ptrdiff_t i = 0; i < values; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    bytes[k] = table(image.rgb[k] * factor);
+    const float value = image.rgb[k] * factor;
+    bytes[k] = table(soft ? filmic(value) : value);
   }
   return bytes;
 }

@@ -1,21 +1,56 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "film/film.h"
+#include "scene/fields.h"
 
 namespace glimt {
 
-/// How radiance becomes a picture. Never part of what is rendered.
+/// How radiance from 0 up is brought to 0..1.
+enum class Tone {
+  linear,  ///< clipped at 1
+  filmic,  ///< (2.51 x^2 + 0.03 x) / (2.43 x^2 + 0.59 x + 0.14): Narkowicz, "ACES filmic tone mapping curve", 2015
+};
+
+/// What the picture shows.
+enum class View {
+  image,    ///< radiance
+  error,    ///< its standard error, on a colour scale
+  samples,  ///< their number per pixel, on a colour scale
+};
+
+/// How what was rendered becomes a picture. Never part of what is rendered.
 struct Display {
-  double exposure = 0;  ///< EV: radiance is multiplied by 2^exposure
+  double exposure = 0;  ///< EV: radiance and error are multiplied by 2^exposure
+  Tone tone = Tone::linear;
+  View view = View::image;
 
   bool operator==(const Display&) const = default;
 };
 
-/// 8-bit sRGB (IEC 61966-2-1), three bytes a pixel, row by row from the top, exactly rounded to nearest; clipped at 1,
-/// and values that are no numbers are black.
+std::span<const Field<Display>> display_fields();
+
+/// The display's fields by key, as images' metadata holds them, and back; what is missing or makes no sense is left at
+/// its default.
+std::map<std::string, std::string> display_texts(const Display& display);
+Display read_display(const std::map<std::string, std::string>& texts);
+
+/// 8-bit sRGB (IEC 61966-2-1), three bytes a pixel, row by row from the top, exactly rounded to nearest; values that
+/// are no numbers are black. The image holds what display.view names: radiance, standard errors, or numbers of samples.
 std::vector<std::uint8_t> to_srgb8(const Image& image, const Display& display);
+
+/// The logarithmic colour scale of a view that is not the image: values at its two ends, and its colours, 8-bit sRGB,
+/// at a share 0..1 between them.
+struct ColourScale {
+  double low = 0, high = 0;
+};
+ColourScale colour_scale(View view);
+std::array<std::uint8_t, 3> scale_colour(float share);
 
 }  // namespace glimt

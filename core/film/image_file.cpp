@@ -41,13 +41,18 @@ void check_writable(const std::filesystem::path& file) {
   check_replaceable(file);
 }
 
-void write_png(const std::filesystem::path& file, const Image& radiance, const Display& display,
+void write_png(const std::filesystem::path& file, const Image& image, const Display& display,
                const Metadata& metadata) {
   naming(file, [&] {
     Metadata all = metadata;
-    all["exposure"] = number_text(display.exposure);
-    replace_file(file, encode_png(radiance.width, radiance.height, to_srgb8(radiance, display), all));
+    all.merge(display_texts(display));
+    replace_file(file, encode_png(image.width, image.height, to_srgb8(image, display), all));
   });
+}
+
+void write_exr(const std::filesystem::path& file, const Image& radiance, const Image& standard_error,
+               const Metadata& metadata) {
+  naming(file, [&] { replace_file(file, encode_exr(radiance, standard_error, metadata)); });
 }
 
 void write_image(const std::filesystem::path& file, const Film& film, const Display& display,
@@ -57,7 +62,7 @@ void write_image(const std::filesystem::path& file, const Film& film, const Disp
       case Format::png:
         return write_png(file, film.mean(), display, metadata);
       case Format::exr:
-        return replace_file(file, encode_exr(film.mean(), film.standard_error(), metadata));
+        return write_exr(file, film.mean(), film.standard_error(), metadata);
       case Format::pfm:
         return replace_file(file, encode_pfm(film.mean()));
     }

@@ -17,7 +17,8 @@ struct ImageFileError : std::runtime_error {
 
 /// What an image says of its making: keys "scene" (the scene file's text, settings included), "samples", "seed",
 /// "version" and the like, as render_metadata (metadata.h) fills them. In files each key is "glimt:KEY": a string
-/// attribute in EXR, an iTXt chunk in PNG, which also has "exposure" (EV).
+/// attribute in EXR, an iTXt chunk in PNG, which also has the display's
+/// fields ("exposure", "tone", "view").
 using Metadata = std::map<std::string, std::string>;
 
 /// Throws ImageFileError at once where `file` has an unknown ending (.png, .exr, .pfm) or cannot be written there: to
@@ -29,8 +30,11 @@ void check_writable(const std::filesystem::path& file);
 /// temporary file in the same folder and renamed. Throws ImageFileError.
 void write_image(const std::filesystem::path& file, const Film& film, const Display& display, const Metadata& metadata);
 
-/// The displayed picture of any radiance image, as write_image writes it for .png. Throws ImageFileError.
-void write_png(const std::filesystem::path& file, const Image& radiance, const Display& display,
+/// The displayed picture of any image that the display's view may show. Throws ImageFileError.
+void write_png(const std::filesystem::path& file, const Image& image, const Display& display, const Metadata& metadata);
+
+/// As write_image writes it for .exr. Throws ImageFileError.
+void write_exr(const std::filesystem::path& file, const Image& radiance, const Image& standard_error,
                const Metadata& metadata);
 
 /// Reads R, G, B of an EXR or a PFM (colour; grey is spread over the channels). Throws ImageFileError.

@@ -30,6 +30,7 @@ struct ValueText {
 Metadata render_metadata(const Scene& scene, int samples, double seconds) {
   Scene rendered = scene;
   rendered.render.spp = samples;
+  rendered.render.target_error = 0;
   Metadata metadata{{"scene", write_scene(rendered)},
                     {"samples", std::to_string(samples)},
                     {"seconds", number_text(seconds)},

@@ -2,7 +2,7 @@
 
 namespace glimt {
 
-template void trace_block<NativeLanes>(const CompiledScene&, const PathBlock&, float*);
-template Rgb trace_given_ray<NativeLanes>(const CompiledScene&, const GivenPath&);
+template void trace_block<KernelLanes>(const CompiledScene&, const PathBlock&, float*);
+template Rgb trace_given_ray<KernelLanes>(const CompiledScene&, const GivenPath&);
 
 }  // namespace glimt

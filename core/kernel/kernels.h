@@ -10,7 +10,7 @@ namespace glimt {
 /// How many paths a thread traces side by side.
 enum class Lanes { scalar, native };
 
-/// Width of `Lanes::native` in this binary: 16, 8 or 4.
+/// Width of `Lanes::native` in this binary: 32, 8 or 4.
 int native_lane_count();
 
 /// A rectangle of pixels and a range of their samples: the paths that one call traces.

@@ -116,7 +116,8 @@ class PathTracer {
     if (any(diffuse)) scatter_diffuse(s, at, diffuse, uv, direction);
     if (scene_.has_mirror) {
       const M mirror = equal(at.kind, I(kind_mirror));
-      direction = select(mirror, reflect(s.ray.direction, at.normal, at.cos_o), direction);
+      // A hollow mirror multiplies what the length is off at every hit.
+      direction = select(mirror, normalize(reflect(s.ray.direction, at.normal, at.cos_o)), direction);
     }
     if (scene_.has_glass && any(glass)) scatter_glass(s, at, glass, uv.u, direction);
     s.ray = {at.point, direction, at.surface};
@@ -197,7 +198,7 @@ class PathTracer {
 
   void add_emission(PathState<F>& s, const Shading<F>& at, F t, const M& light, const M& missed) const {
     M shines = light & at.front;
-    if (!mis_) shines = shines & s.sees_lamps;
+    shines = shines & (mis_ ? s.sees_lamps | (s.pdf_w > F(0.0f)) : s.sees_lamps);
     if (features.rare && scene_.has_glow) shines = shines | !light;
     shines = shines & !missed;
     if ((!features.small_table || mis_) && !any(shines)) return;
@@ -207,7 +208,7 @@ class PathTracer {
       const M shared = light & !s.sees_lamps & less(I(-1), row);
       const F q = s.pdf_w * lamp_inverse_pdf(scene_, select(shared, row, I(0)), s.ray.origin, t, at.cos_o);
       const F m(static_cast<float>(scene_.settings.shadow_rays));
-      const F weight = fnma(m, reciprocal(q + m), F(1.0f));
+      const F weight = max(fnma(m, reciprocal(q + m), F(1.0f)), F(0.0f));
       emission = emission * select(shared, weight, F(1.0f));
     }
     s.radiance = fma(s.throughput, emission, s.radiance);
@@ -319,7 +320,8 @@ class PathTracer {
 
   static constexpr float constant_survival = 0.75f;  ///< the report's
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
-  static constexpr float largest_survival = 0.95f;   ///< below 1, so that light trapped in glass ends
+  static constexpr float largest_survival =
+      0.99f;  ///< below 1, so that light trapped in glass ends; see compile_warnings.cpp
 
   static constexpr int done_capacity = 128;  ///< paths that have ended before their radiance is written out
   template <class T>

@@ -19,6 +19,12 @@ PathKey<F> first_key(Sampler sampler, std::uint32_t seed, Uint<F> pixel, Uint<F>
   return has_sequences(sampler) ? sequence_key<F>(seed, pixel, sample) : path_key<F>(seed, pixel, sample);
 }
 
+template <class F>
+F lattice_number(const PathKey<F>& key, const LatticePlace<F>& place, std::uint32_t dimension, const Uint<F>& index) {
+  const PathKey<F> own{key.a + place.scatter(index), key.b, key.index};
+  return unit_float<F>(Uint<F>(random_bits<F>(own, dimension) + index * place.step(dimension)));
+}
+
 /// Number `k` of `count` pairs, which take the dimension and the next.
 template <class F>
 Point2<F> random_pair(Sampler sampler, const PathKey<F>& key, const LatticePlace<F>& place, std::uint32_t dimension,
@@ -27,8 +33,7 @@ Point2<F> random_pair(Sampler sampler, const PathKey<F>& key, const LatticePlace
   const auto n = static_cast<std::uint32_t>(count), number = static_cast<std::uint32_t>(k);
   const U index = count == 1 ? key.index : U(key.index * U(n) + U(number));
   if (sampler == Sampler::lattice)
-    return {unit_float<F>(U(random_bits<F>(key, dimension) + index * place.step(dimension))),
-            unit_float<F>(U(random_bits<F>(key, dimension + 1) + index * place.step(dimension + 1)))};
+    return {lattice_number(key, place, dimension, index), lattice_number(key, place, dimension + 1, index)};
   if (sampler == Sampler::sobol) return sobol_pair<F>(index, random_bits<F>(key, dimension));
   if (sampler == Sampler::stratified) return stratified_pair<F>(index, random_bits<F>(key, dimension));
   const std::uint32_t own = dimension + number * shadow_dimensions;
@@ -42,8 +47,7 @@ F random_number(Sampler sampler, const PathKey<F>& key, const LatticePlace<F>& p
   using U = Uint<F>;
   if (sampler == Sampler::lattice) {
     const auto n = static_cast<std::uint32_t>(count), number = static_cast<std::uint32_t>(k);
-    const U index = count == 1 ? key.index : U(key.index * U(n) + U(number));
-    return unit_float<F>(U(random_bits<F>(key, dimension) + index * place.step(dimension)));
+    return lattice_number(key, place, dimension, count == 1 ? key.index : U(key.index * U(n) + U(number)));
   }
   return random_pair<F>(sampler, key, place, dimension, count, k).u;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernel/kernels.h"
-#include "math/lanes.h"
+#include "math/twice.h"
 
 /// The kernel's entry points for one lane type. Defined in path.h; instantiated once in kernel_scalar.cpp and once in
 /// kernel_simd.cpp.
@@ -14,8 +14,8 @@ template <class F>
 Rgb trace_given_ray(const CompiledScene& scene, const GivenPath& path);
 
 extern template void trace_block<float>(const CompiledScene&, const PathBlock&, float*);
-extern template void trace_block<NativeLanes>(const CompiledScene&, const PathBlock&, float*);
+extern template void trace_block<KernelLanes>(const CompiledScene&, const PathBlock&, float*);
 extern template Rgb trace_given_ray<float>(const CompiledScene&, const GivenPath&);
-extern template Rgb trace_given_ray<NativeLanes>(const CompiledScene&, const GivenPath&);
+extern template Rgb trace_given_ray<KernelLanes>(const CompiledScene&, const GivenPath&);
 
 }  // namespace glimt

@@ -375,6 +375,8 @@ V expand(V old, Mask<F> mask, const T* from) {
   static_assert(sizeof(T) == 4);
   if constexpr (std::is_arithmetic_v<V>) {
     return mask ? *from : old;
+  } else if constexpr (requires { V::expand(old, mask, from); }) {
+    return V::expand(old, mask, from);
   } else {
     using Register [[maybe_unused]] = typename F::register_type;
 #ifdef __AVX512F__
@@ -407,6 +409,8 @@ void compress(V value, Mask<F> mask, T* to) {
   static_assert(sizeof(T) == 4);
   if constexpr (std::is_arithmetic_v<V>) {
     if (mask) *to = value;
+  } else if constexpr (requires { value.compress(mask, to); }) {
+    value.compress(mask, to);
   } else {
     using Register [[maybe_unused]] = typename F::register_type;
 #ifdef __AVX512F__

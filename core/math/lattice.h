@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "math/lanes.h"
+#include "math/twice.h"
 
 /// Steps of a lattice: point i of a dimension lies at frac(shift + i step), the shift random (Cranley and Patterson,
 /// "Randomization of number theoretic methods for multiple integration", 1976). Any number of samples may be taken;
@@ -34,14 +34,19 @@ template <class F>
 struct LatticePlace {
   Int<F> hit;
 
-  /// Hits past the table share its last row; roulette makes them rare.
-  static LatticePlace of(const Int<F>& hit) {
-    return {select(less(hit, Int<F>(small_table - 1)), hit, Int<F>(small_table - 1))};
-  }
+  static LatticePlace of(const Int<F>& hit) { return {hit}; }
+
+  static constexpr int last = small_table - 1;  ///< hits from here on are rare and have no lattice of their own
+
   Uint<F> step(std::uint32_t dimension) const {
     // Numbers of floats, but only their bits are looked at.
     const auto* row = reinterpret_cast<const float*>(lattice_steps[dimension].data());
-    return as_uint(as_int(lookup_small(row, hit)));
+    return as_uint(as_int(lookup_small(row, select(less(hit, Int<F>(last)), hit, Int<F>(last)))));
+  }
+  /// To be added to the key of sample `index`. With one lattice for them all, deep hits would run in step with each
+  /// other; this gives each of their samples a shift of its own, so that their numbers are independent.
+  Uint<F> scatter(const Uint<F>& index) const {
+    return select(less(hit, Int<F>(last)), Uint<F>(0u), Uint<F>(index * Uint<F>(0x85ebca77u)));
   }
 };
 

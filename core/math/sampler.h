@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/lanes.h"
+#include "math/twice.h"
 
 /// Random numbers as a pure function of (seed, pixel, sample, dimension): no state, so a path is the same in every
 /// thread, block and lane.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/lanes.h"
+#include "math/twice.h"
 
 namespace glimt {
 

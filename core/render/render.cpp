@@ -39,10 +39,12 @@ int hardware_threads() { return omp_get_num_procs(); }
 Film make_film(const CompiledScene& scene) { return Film(scene.width, scene.height, scene.max_radiance); }
 
 bool render_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution,
-                 const std::atomic<bool>* cancel) {
+                 const std::atomic<bool>* cancel, PassProgress* progress) {
   const std::vector<PathBlock> tiles = tiles_of(film);
   const int threads = execution.threads > 0 ? execution.threads : hardware_threads();
   std::atomic<bool> stop{false};
+  PassProgress done(tiles.size(), 0);
+  if (progress && progress->size() == done.size()) done.swap(*progress);
   std::exception_ptr failure;
   std::mutex failure_mutex;
   const auto tile_count = static_cast<std::ptrdiff_t>(tiles.size());
@@ -57,7 +59,8 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
         rgb.resize(3 * block_paths);
         PathBlock block = tiles[static_cast<std::size_t>(i)];
         const int most = block_paths / (block.width * block.height);
-        for (int first = 0; first < count; first += most) {
+        int& first = done[static_cast<std::size_t>(i)];
+        for (; first < count; first += block.samples) {
           if (cancel && cancel->load(std::memory_order_relaxed)) stop = true;
           if (stop.load(std::memory_order_relaxed)) break;
           block.first_sample = static_cast<std::uint32_t>(film.samples() + first);
@@ -73,7 +76,11 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
     }
   }
   if (failure) std::rethrow_exception(failure);
-  if (stop) return false;
+  if (progress) progress->clear();
+  if (stop) {
+    if (progress) progress->swap(done);
+    return false;
+  }
   film.finish_pass(count);
   return true;
 }

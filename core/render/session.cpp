@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,11 +14,15 @@ namespace glimt {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr double pass_seconds = 0.04;  ///< between new images; edits do not wait for it
 constexpr int preview_paths =
     60'000;  ///< of the coarse image that answers an edit within a frame: about 10 ms on two cores
-
-using Clock = std::chrono::steady_clock;
+/// After a preview the next edit is awaited for so long before a film is made: while a slider is dragged, previews come
+/// alone.
+constexpr auto edit_pause = std::chrono::milliseconds(20);
+constexpr int first_estimate = 8;  ///< samples before the estimated error is trusted as a target
 
 /// Pixels of the image, along x and y, that one pixel of the preview stands for.
 int preview_step(const ImageSize& image) {
@@ -26,19 +31,20 @@ int preview_step(const ImageSize& image) {
   return step;
 }
 
-/// Each pixel of the small image over a block of a large one; the last column and row reach to the border.
-Image enlarged(const Image& small, int width, int height, int step) {
-  Image large{width, height,
-              std::vector<float>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float* from = small.pixel(std::min(x / step, small.width - 1), std::min(y / step, small.height - 1));
-      std::copy(from, from + 3, large.pixel(x, y));
-    }
-  return large;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Samples per pixel at which the target is reached, as far as can be told.
+int target_samples(const Settings& settings, const Accumulation& accumulation) {
+  if (settings.target_error == 0) return settings.spp;
+  const int samples = accumulation.film.samples();
+  if (samples < first_estimate) return first_estimate;
+  const double share = accumulation.relmse_estimate / settings.target_error;
+  return share <= 1 ? samples : static_cast<int>(std::clamp(std::ceil(samples * share), samples + 1.0, 1.0 * max_spp));
 }
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+bool finished(const Settings& settings, const Accumulation& accumulation) {
+  return accumulation.pass == 0 && accumulation.film.samples() >= target_samples(settings, accumulation);
+}
 
 }  // namespace
 
@@ -47,11 +53,12 @@ struct Session::Job {
   std::shared_ptr<const CompiledScene>
       preview;  ///< the same at a size that is rendered at once; null where that is its own
   Scene scene;
-  std::uint64_t version = 0;  ///< a new one means a new film
+  std::uint64_t version = 0;  ///< a new one means another film
+  bool from_zero = false;     ///< whatever is kept
 };
 
-Session::Session(Execution execution, std::function<void()> on_frame)
-    : execution_(execution), on_frame_(std::move(on_frame)), worker_([this] { work(); }) {}
+Session::Session(Execution execution, std::function<void()> on_frame, std::size_t kept_bytes)
+    : execution_(execution), on_frame_(std::move(on_frame)), kept_(kept_bytes), worker_([this] { work(); }) {}
 
 Session::~Session() {
   {
@@ -64,20 +71,16 @@ Session::~Session() {
 }
 
 std::uint64_t Session::post(const Scene& scene) {
-  std::shared_ptr<const Job> last;
-  {
-    const std::lock_guard lock(mutex_);
-    last = job_;
-  }
+  const auto last = last_job();
   auto job = std::make_shared<Job>();
-  job->scene = scene;
   Scene same = scene;
-  if (last) same.render.spp = last->scene.render.spp;
+  if (last) {
+    same.render.spp = last->scene.render.spp;
+    same.render.target_error = last->scene.render.target_error;
+  }
   const bool new_target_only = last && same == last->scene;
   if (new_target_only) {
-    job->compiled = last->compiled;
-    job->preview = last->preview;
-    job->version = last->version;
+    *job = *last;
   } else {
     job->compiled = std::make_shared<const CompiledScene>(compile(scene));
     if (const int step = preview_step(scene.image); step > 1) {
@@ -87,20 +90,23 @@ std::uint64_t Session::post(const Scene& scene) {
     }
     job->version = last ? last->version + 1 : 1;
   }
+  job->scene = scene;
   start(job, !new_target_only);
   return job->version;
 }
 
 void Session::restart() {
-  std::shared_ptr<const Job> last;
-  {
-    const std::lock_guard lock(mutex_);
-    last = job_;
-  }
+  const auto last = last_job();
   if (!last) return;
   auto job = std::make_shared<Job>(*last);
   ++job->version;
+  job->from_zero = true;
   start(job, true);
+}
+
+std::shared_ptr<const Session::Job> Session::last_job() const {
+  const std::lock_guard lock(mutex_);
+  return job_;
 }
 
 void Session::start(std::shared_ptr<const Job> job, bool cancel) {
@@ -126,78 +132,123 @@ bool Session::paused() const {
   return paused_;
 }
 
+void Session::set_error_wanted(bool wanted) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (error_wanted_ == wanted) return;
+    error_wanted_ = wanted;
+  }
+  wake_.notify_all();
+}
+
 std::shared_ptr<const Frame> Session::frame() const {
   const std::lock_guard lock(mutex_);
   return frame_;
+}
+
+std::shared_ptr<const CompiledScene> Session::compiled() const {
+  const auto last = last_job();
+  return last ? last->compiled : nullptr;
 }
 
 void Session::work() {
   // The window's thread comes first when all cores are busy. The render threads inherit this.
   setpriority(PRIO_PROCESS, 0, 10);
   std::shared_ptr<const Job> job;
-  Film film;
-  double seconds = 0;
-  bool shown_finished = false;
+  Accumulation now;
+  bool shown = false, shown_finished = false, shown_error = false;  // what the newest frame holds of `now`
   for (;;) {
-    bool new_film = false;
-    bool paused = false;
-    int target = 0;
+    std::shared_ptr<const Job> before = job;
+    bool more = false, with_error = false;
     {
       std::unique_lock lock(mutex_);
+      const auto unfinished = [&] {
+        return now.film.samples() == 0 || now.pass > 0 || (!paused_ && !finished(job_->scene.render, now));
+      };
       wake_.wait(lock, [&] {
         if (quit_ || !job_) return quit_;
-        if (!job || job_->version != job->version) return true;
-        const bool finished = film.samples() >= job_->scene.render.spp;
-        return finished != shown_finished || (!finished && (!paused_ || film.samples() == 0));
+        return !job || job_->version != job->version || !shown || unfinished() ||
+               finished(job_->scene.render, now) != shown_finished || (error_wanted_ && !shown_error);
       });
       if (quit_) return;
-      new_film = !job || job_->version != job->version;
       job = job_;
-      target = job->scene.render.spp;
-      paused = paused_;
       cancel_ = false;
+      with_error = error_wanted_;
+      more = unfinished();
     }
-    if (new_film) {
-      if (job->preview && !show_preview(*job)) {
-        job.reset();
-        continue;
+    if (!before || before->version != job->version) {
+      const bool again = before && before->scene == job->scene;
+      if (before && !(job->from_zero && again)) kept_.put(before->scene, std::move(now));
+      auto kept = kept_.take(job->scene);
+      if (job->from_zero) kept.reset();
+      shown = shown_finished = shown_error = false;
+      now = {};
+      if (job->preview && !(kept && kept->pass == 0)) {
+        show_preview(*job);
+        if (superseded_soon(*job)) {
+          if (kept) kept_.put(job->scene, std::move(*kept));
+          continue;
+        }
       }
-      film = make_film(*job->compiled);
-      seconds = 0;
-      shown_finished = false;
+      now = kept ? std::move(*kept) : Accumulation{.film = make_film(*job->compiled), .progress = {}};
+      more = now.film.samples() == 0 || now.pass > 0;
     }
-    if (film.samples() < target && (!paused || film.samples() == 0)) {
-      const double per_sample = film.samples() > 0 ? seconds / film.samples() : pass_seconds;
-      const int count = std::clamp(static_cast<int>(pass_seconds / per_sample), 1, target - film.samples());
-      const Clock::time_point start = Clock::now();
-      const bool done = render_pass(*job->compiled, film, count, execution_, &cancel_);
-      if (!done) {
-        job.reset();  // part of a pass is in the film
-        continue;
-      }
-      seconds += seconds_since(start);
-    }
-    auto frame = std::make_shared<Frame>();
-    frame->version = job->version;
-    frame->mean = film.mean();
-    frame->samples = film.samples();
-    frame->seconds = seconds;
-    frame->paths_per_second = static_cast<double>(film.samples()) * film.width() * film.height() / seconds;
-    frame->relmse_estimate = relmse_estimate(film);
-    frame->finished = shown_finished = film.samples() >= target;
-    show(std::move(frame));
+    if (more) render_some(*job, now);
+    if (now.pass > 0) continue;  // cancelled
+    shown = true;
+    shown_finished = finished(job->scene.render, now);
+    shown_error = with_error;
+    show(*job, now, with_error);
   }
 }
 
-bool Session::show_preview(const Job& job) {
-  Film film = make_film(*job.preview);
-  if (!render_pass(*job.preview, film, 1, execution_, &cancel_)) return false;
+bool Session::superseded_soon(const Job& job) {
+  std::unique_lock lock(mutex_);
+  return wake_.wait_for(lock, edit_pause, [&] { return quit_ || job_->version != job.version; });
+}
+
+void Session::render_some(const Job& job, Accumulation& now) {
+  const int samples = now.film.samples();
+  if (now.pass == 0) {
+    const double per_sample = samples > 0 ? now.seconds / samples : pass_seconds;
+    const int left = target_samples(job.scene.render, now) - samples;
+    now.pass = std::clamp(static_cast<int>(pass_seconds / per_sample), 1, std::max(left, 1));
+  }
+  // The first image of a small scene is not cancelled, so that something is shown however fast edits come.
+  const bool first_image = samples == 0 && !job.preview;
+  const Clock::time_point start = Clock::now();
+  const bool done =
+      render_pass(*job.compiled, now.film, now.pass, execution_, first_image ? nullptr : &cancel_, &now.progress);
+  now.seconds += seconds_since(start);
+  if (!done) return;
+  now.pass = 0;
+  now.relmse_estimate = relmse_estimate(now.film);
+}
+
+void Session::show(const Job& job, const Accumulation& now, bool with_error) {
+  const Film& film = now.film;
   auto frame = std::make_shared<Frame>();
   frame->version = job.version;
-  frame->mean = enlarged(film.mean(), job.compiled->width, job.compiled->height, preview_step(job.scene.image));
+  frame->size = {film.width(), film.height()};
+  frame->mean = film.mean();
+  if (with_error) frame->error = film.standard_error();
+  frame->samples = film.samples();
+  frame->seconds = now.seconds;
+  frame->paths_per_second = static_cast<double>(film.samples()) * film.width() * film.height() / now.seconds;
+  frame->relmse_estimate = now.relmse_estimate;
+  frame->finished = finished(job.scene.render, now);
+  show(std::move(frame));
+}
+
+void Session::show_preview(const Job& job) {
+  Film film = make_film(*job.preview);
+  render_pass(*job.preview, film, 1, execution_);
+  auto frame = std::make_shared<Frame>();
+  frame->version = job.version;
+  frame->size = job.scene.image;
+  frame->mean = film.mean();
   frame->relmse_estimate = std::numeric_limits<double>::infinity();
   show(std::move(frame));
-  return true;
 }
 
 void Session::show(std::shared_ptr<const Frame> frame) {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "film/film.h"
+#include "render/film_cache.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -15,50 +16,64 @@ namespace glimt {
 /// A finished state of the image. Immutable, so the window may keep and show it for as long as it likes.
 struct Frame {
   std::uint64_t version = 0;    ///< of the edit it shows, as returned by Session::post
-  Image mean;                   ///< radiance, linear RGB
+  ImageSize size;               ///< of the image, pixels
+  Image mean;                   ///< radiance, linear RGB; smaller than `size` in the coarse preview
+  Image error;                  ///< standard error of `mean`; empty where nobody wants it, and in the preview
   int samples = 0;              ///< per pixel; 0 for the coarse preview that answers an edit of a large image
   double seconds = 0;           ///< of rendering since the last restart, pauses left out
   double paths_per_second = 0;  ///< over the same time
   double relmse_estimate = 0;   ///< infinite below two samples
-  bool finished = false;        ///< the sample target is reached
+  bool finished = false;        ///< the target is reached
 };
 
 /// A worker that keeps adding samples while a window edits the scene. All functions may be called from the window's
 /// thread and return at once: none waits for rendering.
 class Session {
  public:
-  /// `on_frame` is called on the worker's thread after each new frame and must only wake the window.
-  explicit Session(Execution execution = {}, std::function<void()> on_frame = {});
+  /// `on_frame` is called on the worker's thread after each new frame and must only wake the window. Films of scenes
+  /// that were shown before are kept up to `kept_bytes`.
+  explicit Session(Execution execution = {}, std::function<void()> on_frame = {},
+                   std::size_t kept_bytes = std::size_t{512} << 20);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Shows this scene from now on and returns the version its frames will carry. A change of the sample target alone
-  /// goes on with the samples there are. Throws SceneError for a scene that cannot be rendered and then keeps the last
-  /// one.
+  /// Shows this scene from now on and returns the version its frames will carry. A change of the target alone goes on
+  /// with the samples there are, and a scene that was shown a short while ago with those it had. Throws SceneError for
+  /// a scene that cannot be rendered and then keeps the last one.
   std::uint64_t post(const Scene& scene);
   /// Begins again at zero samples.
   void restart();
   /// A paused session uses no CPU.
   void set_paused(bool paused);
   bool paused() const;
+  /// Whether frames hold the standard error too; the newest gets it at once.
+  void set_error_wanted(bool wanted);
   /// The newest frame, or null before the first.
   std::shared_ptr<const Frame> frame() const;
+  /// What the last post was lowered to, or null before the first.
+  std::shared_ptr<const CompiledScene> compiled() const;
 
  private:
   struct Job;
+  std::shared_ptr<const Job> last_job() const;
   void start(std::shared_ptr<const Job> job, bool cancel);
   void work();
-  bool show_preview(const Job& job);
+  bool superseded_soon(const Job& job);
+  void render_some(const Job& job, Accumulation& accumulation);
+  void show_preview(const Job& job);
+  void show(const Job& job, const Accumulation& accumulation, bool with_error);
   void show(std::shared_ptr<const Frame> frame);
 
   Execution execution_;
   std::function<void()> on_frame_;
+  FilmCache kept_;            ///< of the worker
   mutable std::mutex mutex_;  ///< held for assignments only, never while rendering, copying pixels or uploading
   std::condition_variable wake_;
   std::shared_ptr<const Job> job_;      ///< what to render
   std::shared_ptr<const Frame> frame_;  ///< what is there to show
   bool paused_ = false;
+  bool error_wanted_ = false;
   bool quit_ = false;
   std::atomic<bool> cancel_{false};  ///< the running pass is of no use any more
   std::thread worker_;

@@ -216,17 +216,6 @@ void describe(Lowering& l) {
   feature(out.has_oren_nayar, "Oren-Nayar");
   feature(out.has_glow, "glowing surfaces");
   if (!out.room.empty() && !out.room_hides_lamps) out.left_out.emplace_back("shadow tests against the room");
-  if (out.max_radiance == 0) out.warnings.emplace_back("nothing in reach emits light: the image will be black");
-  const bool constant_diverges = std::any_of(l.surfaces.begin(), l.surfaces.end(), [](const Surface& s) {
-    const dvec3& r = s.material->reflectance;
-    const MaterialType type = s.material->type;
-    return is_diffuse(type) && std::max({r.r, r.g, r.b}) > 0.866;
-  });
-  if (out.settings.roulette == Roulette::constant && constant_diverges)
-    out.warnings.emplace_back(
-        "constant roulette (survival 0.75) has infinite variance where a reflectance is above 0.866 = sqrt(0.75): the "
-        "noise "
-        "will not go away; choose roulette = \"throughput\"");
 }
 
 }  // namespace
@@ -251,6 +240,7 @@ CompiledScene compile(const Scene& scene) {
   fill_surfaces(l);
   lower_lamps(l);
   describe(l);
+  warn(l);
   return std::move(l.out);
 }
 

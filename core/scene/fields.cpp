@@ -34,8 +34,10 @@ constexpr auto choice(std::span<const std::string_view> names) {
 constexpr double max_radiance = 1e9;
 
 // The method comes before what it sets, so that what a file or command line says beside it holds.
-const std::array<Field<Settings>, 11> settings_table{{
-    {"spp", "samples per pixel to stop at", &Settings::spp, 1, 1 << 24},
+const std::array<Field<Settings>, 12> settings_table{{
+    {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
+    {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
+     &Settings::target_error, 0, 1e6},
     {"shadow_rays", "shadow rays per diffuse hit", &Settings::shadow_rays, 1, 64},
     {"seed", "seed of the random numbers", &Settings::seed, 0, 2147483647},
     {"method",
@@ -163,6 +165,7 @@ void set_method(Settings& settings, Method method) {
   const Settings other = settings;
   settings = {};
   settings.spp = other.spp;
+  settings.target_error = other.target_error;
   settings.shadow_rays = other.shadow_rays;
   settings.seed = other.seed;
   settings.method = method;

@@ -59,4 +59,7 @@ void add_flat_lamp(Lowering& l, const std::vector<glm::dvec3>& vertices, const g
 /// The lamp table from the pieces gathered, each chosen with a probability in proportion to its power.
 void lower_lamps(Lowering& l);
 
+/// Warnings for scenes in which the chosen estimators cannot hold.
+void warn(Lowering& l);
+
 }  // namespace glimt

@@ -29,6 +29,8 @@ enum class Roulette {
   constant,    ///< 0.75 at every diffuse hit (the report); infinite variance where the reflectance is above 0.866
 };
 
+inline constexpr int max_spp = 1 << 24;
+
 /// Where the random numbers come from.
 enum class Sampler {
   independent,  ///< hashed
@@ -45,6 +47,7 @@ enum class Caustics { off, on };
 /// window in fields.cpp.
 struct Settings {
   int spp = 64;                  ///< samples per pixel to stop at
+  double target_error = 0;       ///< relmse_estimate to stop at in place of `spp`; 0: stop at `spp`
   int shadow_rays = 1;           ///< M, shadow rays per diffuse hit
   int seed = 1;                  ///< of the random numbers
   Method method = Method::path;  ///< what the settings below began from
@@ -61,5 +64,12 @@ struct Settings {
 
 /// Takes all settings from `light_sampling` on from the method.
 void set_method(Settings& settings, Method method);
+
+/// The settings without where to stop: what decides the value of every sample. Sub-pixels are as many as the samples.
+inline Settings without_target(Settings settings) {
+  if (settings.sampler != Sampler::centres) settings.spp = Settings{}.spp;
+  settings.target_error = 0;
+  return settings;
+}
 
 }  // namespace glimt

@@ -6,7 +6,7 @@
 
 using namespace glimt;
 
-// Scenes whose every pixel is known. The probability of a false alarm is alpha for each test.
+// Scenes whose every pixel is known. The probability of a false alarm is alpha for each picture.
 namespace {
 
 constexpr double alpha = 1e-4;
@@ -37,10 +37,15 @@ void expect_uniform(const Scene& scene, const dvec3& radiance, int samples) {
 TEST(Furnace, EveryPixelHasItsExactRadiance) {
   Scene scene = read_scene(GLIMT_SCENES "/furnace.toml");
   scene.image = {80, 80};
-  for (const Roulette roulette : {Roulette::throughput, Roulette::constant}) {
-    scene.render.roulette = roulette;
-    expect_uniform(scene, {1, 2, 4}, 4 * effort);
-  }
+  for (const Sampler sampler :
+       {Sampler::independent, Sampler::stratified, Sampler::lattice, Sampler::sobol, Sampler::centres})
+    for (const Roulette roulette : {Roulette::throughput, Roulette::constant}) {
+      scene.name = "sampler " + std::to_string(static_cast<int>(sampler)) + ", roulette " +
+                   std::to_string(static_cast<int>(roulette));
+      scene.render.sampler = sampler;
+      scene.render.roulette = roulette;
+      expect_uniform(scene, {1, 2, 4}, 2 * effort);
+    }
 }
 
 // By the same argument a Lambertian sphere of the walls' material cannot be seen.
@@ -116,6 +121,18 @@ TEST(GlowingBox, PerfectMirrorsCannotBeSeen) {
   scene.meshes = {tetrahedron("c", "mirror", {0, 0.9, 0}, 0.4)};
   scene.name = "mirrors";
   expect_each_sample(scene, 1, 1e-5);
+}
+
+// What its single bounce loses, EON reflects again and again: with reflectance 1 it keeps all light.
+TEST(GlowingBox, WhiteEonSphereCannotBeSeen) {
+  for (const double roughness : {0.0, 0.4, 1.0}) {
+    Scene scene = glowing_box();
+    scene.materials.push_back(
+        {.name = "white", .type = MaterialType::eon, .reflectance = dvec3{1}, .eon_roughness = roughness});
+    scene.spheres = {{"ball", "white", {0, 0, 0}, 0.9}};
+    scene.name = "EON of roughness " + std::to_string(roughness);
+    expect_uniform(scene, {0.25, 1, 3}, 16 * effort);
+  }
 }
 
 // Radiance over the square of the index is the same along a ray through surfaces that keep all light (the fundamental

@@ -14,6 +14,8 @@
 #include <thread>
 #include <vector>
 
+#include "film/file_bytes.h"
+#include "film/image_formats.h"
 #include "viewer/controller.h"
 #include "viewer/screen.h"
 
@@ -32,12 +34,13 @@ class Offscreen {
     }
     OSMesaPixelStore(OSMESA_Y_UP, 0);
     controller_ = std::make_unique<Controller>(
-        std::move(scene), "picture", [] {}, Execution{.threads = 2});
+        std::move(scene), "picture.toml", [] {}, Execution{.threads = 2});
     screen_ = std::make_unique<Screen>();
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     io.DisplayFramebufferScale = {static_cast<float>(ratio), static_cast<float>(ratio)};
     io.DeltaTime = 1.0F / 60;
+    io.MouseDoubleClickTime = 0;  // a test presses faster than a hand
   }
   ~Offscreen() {
     screen_.reset();
@@ -48,6 +51,11 @@ class Offscreen {
   Offscreen& operator=(const Offscreen&) = delete;
 
   Controller& controller() { return *controller_; }
+  Screen& screen() { return *screen_; }
+  void apply(const Edits& edits) {
+    controller_->apply(edits);
+    draw();
+  }
   const ViewerState& state() const { return controller_->state(); }
   const WidgetRects& widgets() const { return screen_->widgets(); }
   Rect widget(const std::string& name) const {
@@ -86,6 +94,32 @@ class Offscreen {
         [&] { return state().frame && state().frame->finished && state().frame->version >= state().version; });
   }
 
+  /// Moves the mouse to a place in the image (pixels from its top left), presses, drags by so many window coordinates,
+  /// and lets go.
+  void drag_in_image(float x, float y, float dx, float dy, int button = 0) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = in_window(x, y);
+    draw(2);
+    io.MouseDown[button] = true;
+    draw(2);
+    for (int step = 0; step < 4 && (dx != 0 || dy != 0); ++step) {
+      io.MousePos.x += dx / 4;
+      io.MousePos.y += dy / 4;
+      draw(1);
+    }
+    release(button);
+  }
+  void click_in_image(float x, float y) { drag_in_image(x, y, 0, 0); }
+  void scroll_in_image(float x, float y, float notches) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = in_window(x, y);
+    draw(2);
+    io.MouseWheel = notches;
+    draw(1);
+    io.MouseWheel = 0;
+    release();
+  }
+
   /// Moves the mouse to a share of the control's width, presses, and lets go.
   void press(const std::string& name, float share = 0.5F) {
     const Rect r = widget(name);
@@ -115,11 +149,26 @@ class Offscreen {
     return {p[0], p[1], p[2]};
   }
 
+  /// A place in the image in window coordinates.
+  ImVec2 in_window(float x, float y) const {
+    const Rect r = widget("image");
+    const float zoom = r.width / static_cast<float>(state().scene.image.width);
+    return {r.x + x * zoom, r.y + y * zoom};
+  }
+
+  /// Saves what is drawn as a PNG.
+  void save(const std::filesystem::path& file) const {
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t i = 0; i < pixels_.size(); i += 4)
+      rgb.insert(rgb.end(), {pixels_[i], pixels_[i + 1], pixels_[i + 2]});
+    replace_file(file, encode_png(width_ * ratio_, height_ * ratio_, rgb, {}));
+  }
+
  private:
   /// Lets go, and takes the mouse away, with it the tooltip that may stand over the picture.
-  void release() {
+  void release(int button = 0) {
     ImGuiIO& io = ImGui::GetIO();
-    io.MouseDown[0] = false;
+    io.MouseDown[button] = false;
     draw(2);
     io.MousePos = {-FLT_MAX, -FLT_MAX};
     draw();

@@ -12,6 +12,7 @@
 #include "film/image_file.h"
 #include "scene/fields.h"
 #include "scene/scene_file.h"
+#include "viewer/edit.h"
 #include "viewer/layout.h"
 
 namespace glimt {
@@ -20,7 +21,7 @@ namespace {
 using testing::Offscreen;
 
 constexpr int image_width = 96, image_height = 72, zoom = 6;
-constexpr int window_width = image_width * zoom + 320, window_height = image_height * zoom + 400;
+constexpr int window_width = image_width * zoom + 352, window_height = image_height * zoom + 400;
 
 /// The report's room, small, with the Oren-Nayar sphere at its roughness of 0.6.
 Scene small_room(int spp = 4) {
@@ -37,6 +38,13 @@ std::size_t sphere_index(const Scene& scene, const std::string& name) {
 
 const Material& material_of(const Scene& scene, const std::string& sphere) {
   return *find_material(scene, scene.spheres[sphere_index(scene, sphere)].material);
+}
+
+/// Selects an object, or none: no outline is then on the picture.
+void select(Offscreen& window, const std::optional<ObjectId>& object) {
+  Edits edits;
+  edits.select = object;
+  window.apply(edits);
 }
 
 /// The picture's pixels as they are on the screen, one of each magnified square.
@@ -94,7 +102,9 @@ TEST(Viewer, RoughnessSliderRendersAnew) {
   ASSERT_TRUE(window.draw_until_finished());
   const auto before = picture(window);
   const auto version = window.state().version;
-  window.drag("sphere.oren-nayar.material.roughness", 1);
+  window.press("object.oren-nayar");
+  window.drag("object.roughness", 1);
+  select(window, std::nullopt);
   EXPECT_NEAR(material_of(window.state().scene, "oren-nayar").roughness, std::numbers::pi / 2, 0.02);
   EXPECT_GT(window.state().version, version);
   ASSERT_TRUE(window.draw_until_finished());
@@ -130,8 +140,10 @@ TEST(Viewer, MenuSwitchesTheMaterialOfOneSphere) {
   const auto shown_before = picture(window);
   const std::string shared = material_of(before, "lambertian").name;
 
-  window.press("sphere.lambertian.material");
-  window.press("sphere.lambertian.material.mirror");
+  window.press("object.lambertian");
+  window.press("object.type");
+  window.press("object.type.mirror");
+  select(window, std::nullopt);
   const Scene& after = window.state().scene;
   EXPECT_EQ(material_of(after, "lambertian").type, MaterialType::mirror);
   EXPECT_EQ(material_of(after, "lambertian").name, "lambertian") << "a copy of its own, named after the sphere";
@@ -147,14 +159,14 @@ TEST(Viewer, MenuSwitchesTheMaterialOfOneSphere) {
 TEST(Viewer, EveryTypeShowsItsParameters) {
   Offscreen window(small_room(), window_width, window_height + 400);
   window.draw();
+  window.press("object.lambertian");
   for (const auto& info : material_infos()) {
     if (info.type == MaterialType::lambertian) continue;
-    window.press("sphere.lambertian.material");
-    window.press("sphere.lambertian.material." + std::string(info.name));
+    window.press("object.type");
+    window.press("object.type." + std::string(info.name));
     EXPECT_EQ(material_of(window.state().scene, "lambertian").type, info.type);
     for (const auto& field : info.fields) {
-      EXPECT_TRUE(window.widgets().contains("sphere.lambertian.material." + std::string(field.key)))
-          << info.name << " " << field.key;
+      EXPECT_TRUE(window.widgets().contains("object." + std::string(field.key))) << info.name << " " << field.key;
     }
   }
 }
@@ -163,6 +175,7 @@ TEST(Viewer, SampleTargetGoesOnAndShadowRaysRestart) {
   Offscreen window(small_room(), window_width, window_height);
   ASSERT_TRUE(window.draw_until_finished());
   const auto version = window.state().frame->version;
+  window.press("tab.estimator");
   window.press("render.spp", 5.0F / 24);  // logarithmic to 2^24: 2^5
   EXPECT_EQ(window.state().scene.render.spp, 32);
   ASSERT_TRUE(window.draw_until([&] { return window.state().frame->samples == 32; }));
@@ -185,37 +198,53 @@ TEST(Viewer, PauseAndRestart) {
   EXPECT_TRUE(window.draw_until([&] { return window.state().frame->version > version; }));
 }
 
+/// The colour of an error is somewhere in the status line.
+bool says_error(const Offscreen& window) {
+  const Rect line = window.widget("message");
+  for (int y = static_cast<int>(line.y); y < static_cast<int>(line.y + line.height); ++y) {
+    for (int x = 12; x < 200; ++x) {
+      const auto [r, g, b] = window.pixel(x, y);
+      if (r > 180 && r > g + 60) return true;
+    }
+  }
+  return false;
+}
+
 TEST(Viewer, RefusedEditSaysWhyAndLosesNothing) {
-  Scene scene = small_room();
-  Sphere intruder = scene.spheres[sphere_index(scene, "glass")];  // overlaps the glass sphere
-  intruder.name = "intruder";
-  intruder.center.x += intruder.radius;
-  intruder.material = material_of(scene, "lambertian").name;
-  scene.spheres.push_back(intruder);
+  const Scene scene = small_room();
   Offscreen window(scene, window_width, window_height);
   ASSERT_TRUE(window.draw_until_finished());
   const auto frame = window.state().frame;
 
-  window.press("sphere.intruder.material");
-  window.press("sphere.intruder.material.glass");
+  Edits edits;
+  edits.edit(window.state()).camera.look_at = scene.camera.eye;
+  window.apply(edits);
   EXPECT_TRUE(window.state().message.error);
-  EXPECT_NE(window.state().message.text, "");
-  EXPECT_EQ(window.state().message.text.find('\n'), std::string::npos);
+  EXPECT_NE(window.state().message.text.find("look_at"), std::string::npos) << window.state().message.text;
   EXPECT_EQ(window.state().scene, scene);
+  EXPECT_FALSE(window.state().can_undo);
   EXPECT_EQ(window.state().frame, frame);
-  const Rect line = window.widget("message");
-  bool red = false;
-  for (int y = static_cast<int>(line.y); y < static_cast<int>(line.y + line.height); ++y) {
-    for (int x = 12; x < 200; ++x) {
-      const auto [r, g, b] = window.pixel(x, y);
-      red |= r > 180 && r > g + 60;
-    }
-  }
-  EXPECT_TRUE(red) << "the message stands in red below the picture";
+  EXPECT_TRUE(says_error(window));
 
-  window.press("sphere.intruder.material");
-  window.press("sphere.intruder.material.mirror");
+  window.press("object.lambertian");
+  window.press("object.type");
+  window.press("object.type.mirror");
   EXPECT_EQ(window.state().message.text, "") << "an edit that is accepted clears it";
+}
+
+TEST(Viewer, MaterialThatAShapeCannotBeIsGreyed) {
+  Offscreen window(small_room(), window_width, window_height);
+  ASSERT_TRUE(window.draw_until_finished());
+  const ObjectId lamp = lamps_of(window.state().scene).at(0);
+  select(window, lamp);
+  const Scene before = window.state().scene;
+  window.press("object.type");
+  window.press("object.type.glass");
+  EXPECT_EQ(window.state().scene, before) << "a polygon is open";
+  EXPECT_FALSE(window.state().message.error) << "it was not even tried";
+  window.press("object.type.mirror");  // the menu is still there
+  EXPECT_EQ(find_material(window.state().scene, material_name_of(window.state().scene, lamp))->type,
+            MaterialType::mirror);
 }
 
 TEST(Viewer, SceneFileThatCannotBeReadLosesNothing) {
@@ -251,9 +280,46 @@ void PrintTo(const Size& size, std::ostream* out) {
 
 class Fit : public ::testing::TestWithParam<Size> {};
 
+bool apart(const Rect& r, const Rect& s) {
+  return r.x + r.width <= s.x || s.x + s.width <= r.x || r.y + r.height <= s.y || s.y + s.height <= r.y;
+}
+
+/// Not in the column of controls.
+bool is_elsewhere(const std::string& name) { return name == "image" || name == "message" || name.starts_with("says."); }
+
+/// All that is drawn now lies in its part of the window, whole, and touches nothing else.
+void expect_fit(const Offscreen& window, const Layout& layout, float scale) {
+  const float right = layout.column.x + layout.column.width, bottom = layout.column.y + layout.column.height;
+  const auto& widgets = window.widgets();
+  for (const auto& [name, r] : widgets) {
+    EXPECT_FALSE(name.starts_with("cut.")) << name;
+    if (is_elsewhere(name)) continue;
+    EXPECT_GE(r.x, layout.column.x) << name;
+    EXPECT_LE(r.x + r.width, right) << name;
+    EXPECT_LE(r.y + r.height, bottom) << name << " sticks out below";
+    EXPECT_GT(r.width, 15 * scale) << name << " is too narrow to be used";
+    for (const auto& [other, s] : widgets)
+      EXPECT_TRUE(other <= name || is_elsewhere(other) || apart(r, s)) << name << " and " << other;
+  }
+}
+
+/// With GLIMT_SCREENSHOTS=FOLDER every panel is saved there, to be looked at.
+void save_screenshot(const Offscreen& window, const std::string& name, const Size& size) {
+  const char* folder = std::getenv("GLIMT_SCREENSHOTS");
+  if (folder == nullptr) return;
+  std::filesystem::create_directories(folder);
+  window.save(std::filesystem::path(folder) /
+              (name + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + "-" +
+               std::to_string(static_cast<int>(size.scale) * size.ratio) + (size.ratio > 1 ? "r.png" : ".png")));
+}
+
 TEST_P(Fit, NothingOverlapsOrSticksOut) {
-  const auto [width, height, scale, ratio] = GetParam();
-  Offscreen window(small_room(), width, height, scale, ratio);
+  const Size size = GetParam();
+  const auto [width, height, scale, ratio] = size;
+  const bool pictures = std::getenv("GLIMT_SCREENSHOTS") != nullptr;
+  const std::vector<std::string> large{"image.width=768", "image.height=768", "render.spp=64"};
+  Offscreen window(pictures ? read_scene(GLIMT_SCENES "/report.toml", large) : small_room(), width, height, scale,
+                   ratio);
   ASSERT_TRUE(window.draw_until_finished());
   const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height), scale);
   const Rect image = window.widget("image");
@@ -261,28 +327,55 @@ TEST_P(Fit, NothingOverlapsOrSticksOut) {
   EXPECT_GE(image.y, 0);
   EXPECT_LE(image.x + image.width, layout.column.x);
   EXPECT_LE(image.y + image.height, layout.status.y);
-  EXPECT_NEAR(image.width / image.height, 96.0 / 72, 1e-3);
   EXPECT_TRUE(image.width > 0.89F * layout.image.width || image.height > 0.89F * layout.image.height)
       << "fills the space";
-
-  const auto& widgets = window.widgets();
-  for (const auto& [name, r] : widgets) {
-    if (name == "image" || name == "message") continue;
-    EXPECT_GE(r.x, layout.column.x) << name;
-    EXPECT_LE(r.x + r.width, static_cast<float>(width)) << name;
-    EXPECT_GT(r.width, 15 * scale) << name << " is too narrow to be used";
-    for (const auto& [other, s] : widgets) {
-      if (other <= name || other == "image" || other == "message") continue;
-      const bool apart = r.x + r.width <= s.x || s.x + s.width <= r.x || r.y + r.height <= s.y || s.y + s.height <= r.y;
-      EXPECT_TRUE(apart) << name << " and " << other;
-    }
+  expect_fit(window, layout, scale);
+  save_screenshot(window, "start", size);
+  for (std::size_t i = 0; i < window.state().scene.spheres.size(); ++i) {
+    select(window, ObjectId{ObjectKind::sphere, i});
+    expect_fit(window, layout, scale);
+    save_screenshot(window, "sphere" + std::to_string(i), size);
   }
-  EXPECT_LE(window.widget("snapshot").y, static_cast<float>(height));
+  for (const char* tab : {"lamp", "camera", "estimator", "scene"}) {
+    window.press(std::string("tab.") + tab);
+    expect_fit(window, layout, scale);
+    save_screenshot(window, tab, size);
+  }
+  Edits edits;
+  edits.display = Display{.view = View::error};
+  window.apply(edits);
+  ASSERT_TRUE(window.draw_until([&] { return !window.state().frame->error.rgb.empty(); }));
+  expect_fit(window, layout, scale);
+  save_screenshot(window, "error", size);
+}
+
+TEST_P(Fit, SheetsLieOnThePicture) {
+  const Size size = GetParam();
+  Offscreen window(small_room(), size.width, size.height, size.scale, size.ratio);
+  ASSERT_TRUE(window.draw_until_finished());
+  window.screen().toggle_help();
+  window.draw();
+  save_screenshot(window, "help", size);
+  window.screen().toggle_help();
+  for (const auto purpose : {FilesPanel::Purpose::open, FilesPanel::Purpose::save}) {
+    Edits edits;
+    edits.folder = GLIMT_SCENES;
+    window.apply(edits);
+    window.screen().show_files(purpose, window.state());
+    window.draw();
+    save_screenshot(window, purpose == FilesPanel::Purpose::open ? "open" : "save", size);
+    const Rect cancel = window.widget("files.cancel");
+    EXPECT_LE(cancel.x + cancel.width, make_layout(static_cast<float>(size.width), 0, size.scale).column.x);
+    EXPECT_LE(cancel.y + cancel.height, static_cast<float>(size.height));
+    EXPECT_TRUE(window.widgets().contains("files.cornell.toml"));
+    window.press("files.cancel");
+    EXPECT_FALSE(window.widgets().contains("files.cancel"));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Fit,
-                         ::testing::Values(Size{1280, 800, 1, 1}, Size{800, 600, 1, 1}, Size{2560, 1600, 2, 1},
-                                           Size{1600, 1200, 2, 1}, Size{1280, 800, 1, 2}));
+                         ::testing::Values(Size{1280, 800, 1, 1}, Size{1920, 1080, 1, 1}, Size{2560, 1600, 2, 1},
+                                           Size{3840, 2160, 2, 1}, Size{1280, 800, 1, 2}));
 
 TEST(Snapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
   const auto folder = std::filesystem::path(::testing::TempDir()) / ("glimt_snapshot_" + std::to_string(getpid()));
@@ -293,7 +386,8 @@ TEST(Snapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
   {
     Offscreen window(small_room(), window_width, window_height);
     ASSERT_TRUE(window.draw_until_finished());
-    window.drag("sphere.oren-nayar.material.roughness", 0.25F);
+    window.press("object.oren-nayar");
+    window.drag("object.roughness", 0.25F);
     ASSERT_TRUE(window.draw_until_finished());
     window.press("snapshot");
     ASSERT_TRUE(window.draw_until([&] { return !window.state().message.text.empty(); }));

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <stb_image.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,12 +16,15 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "film/image_file.h"
+#include "scene/fields.h"
+#include "scene/pick.h"
 #include "scene/scene_file.h"
 
 /// The program with its real window, on an X server without a screen, driven from outside by mouse and keys.
@@ -30,10 +34,10 @@ namespace {
 namespace fs = std::filesystem;
 
 bool wait_for(const std::function<bool()>& condition) {
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (std::chrono::steady_clock::now() < give_up) {
     if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
   }
   return false;
 }
@@ -92,13 +96,14 @@ class WindowTest : public ::testing::Test {
     fs::current_path(folder_);
     setenv("GLIMT_WIDGET_LOG", "widgets", 1);
     setenv("GLIMT_FRAME_LOG", "frames", 1);
+    setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
     unsetenv("WAYLAND_DISPLAY");
 
     // The server names the display that it found free.
     int ends[2];
     ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
     server_ = std::make_unique<Process>(
-        std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x900x24"},
+        std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1400x950x24"},
         "server.log", ends[1]);
     close(ends[1]);
     std::string number;
@@ -110,6 +115,7 @@ class WindowTest : public ::testing::Test {
 
   void TearDown() override {
     program_.reset();
+    manager_.reset();
     server_.reset();
     fs::current_path("/");
     if (!folder_.empty()) fs::remove_all(folder_);
@@ -117,9 +123,16 @@ class WindowTest : public ::testing::Test {
 
   /// Starts the program and waits for the first picture.
   void open_window(const std::string& scene) {
+    for (const char* log : {"frames", "widgets"}) fs::remove(log);
     program_ = std::make_unique<Process>(std::vector<std::string>{GLIMT_PROGRAM, scene}, "program.log");
     ASSERT_TRUE(wait_for([&] { return !content("frames").empty() && widgets().contains("snapshot"); }))
         << content("program.log");
+  }
+
+  void close_window() {
+    xdotool("key ctrl+q");
+    EXPECT_EQ(program_->wait(), 0);
+    EXPECT_EQ(content("program.log"), "");
   }
 
   /// Name and rectangle of every control.
@@ -127,7 +140,7 @@ class WindowTest : public ::testing::Test {
     std::map<std::string, std::array<double, 4>> all;
     std::istringstream lines(content("widgets"));
     for (std::string line; std::getline(lines, line);) {
-      const auto tab = line.find('\t');
+      const auto tab = line.rfind('\t');
       std::array<double, 4> r{};
       std::istringstream(line.substr(tab)) >> r[0] >> r[1] >> r[2] >> r[3];
       all[line.substr(0, tab)] = r;
@@ -135,28 +148,80 @@ class WindowTest : public ::testing::Test {
     return all;
   }
 
+  static bool is_there(const std::string& widget) {
+    return wait_for([&] { return widgets().contains(widget); });
+  }
+  static bool is_gone(const std::string& widget) {
+    return wait_for([&] { return !widgets().contains(widget); });
+  }
+  /// Whether the status line comes to hold the text.
+  static bool says(const std::string& text) {
+    return wait_for([&] {
+      for (const auto& [name, ignored] : widgets())
+        if (name.starts_with("says.") && name.find(text) != std::string::npos) return true;
+      return false;
+    });
+  }
+
   static void xdotool(const std::string& arguments) {
     ASSERT_EQ(std::system(("xdotool " + arguments).c_str()), 0) << arguments;
   }
 
-  /// Waits for the control and puts the mouse at a share of its width. No window manager has moved the window from 0,
-  /// 0.
-  static void point_at(const std::string& name, double share = 0.5) {
-    ASSERT_TRUE(wait_for([&] { return widgets().contains(name); })) << name << " in\n" << content("widgets");
+  static std::string in_window() { return "$(xdotool search --onlyvisible --class '^glimt$' | head -1)"; }
+
+  static void move_to(double x, double y) {
+    xdotool("mousemove --window " + in_window() + " " + std::to_string(std::lround(x)) + " " +
+            std::to_string(std::lround(y)));
+  }
+
+  /// Waits for the control and puts the mouse at a share of its width and height.
+  static void point_at(const std::string& name, double share = 0.5, double share_down = 0.5) {
+    ASSERT_TRUE(is_there(name)) << name << " in\n" << content("widgets");
     const auto [x, y, width, height] = widgets()[name];
-    xdotool("mousemove " + std::to_string(std::lround(x + share * width)) + " " +
-            std::to_string(std::lround(y + height / 2)));
+    move_to(x + share * width, y + share_down * height);
   }
 
   static void click(const std::string& name, double share = 0.5) {
     point_at(name, share);
-    xdotool("click 1");
+    xdotool("sleep 0.05 click 1 sleep 0.05");
+  }
+
+  /// At the pace of a hand: ImGui takes in one change of a button in a picture.
+  static void drag(const std::string& name, double from, double to) {
+    point_at(name, from);
+    xdotool("mousedown 1 sleep 0.08");
+    point_at(name, (from + to) / 2);
+    point_at(name, to);
+    xdotool("sleep 0.08 mouseup 1 sleep 0.08");
+  }
+
+  static void choose(const std::string& menu, const std::string& item) {
+    click(menu);
+    click(menu + "." + item);
+    EXPECT_TRUE(is_gone(menu + "." + item)) << menu << " stays open";
+  }
+
+  /// Takes a snapshot of `stem` and returns the scene in it.
+  Scene snapshot(const std::string& stem) {
+    xdotool("key s");
+    const std::string number = std::to_string(++snapshots_);
+    last_snapshot_ = stem + "-" + std::string(3 - std::min<std::size_t>(number.size(), 3), '0') + number + ".png";
+    EXPECT_TRUE(wait_for([&] { return fs::exists(last_snapshot_) && fs::file_size(last_snapshot_) > 0; }))
+        << last_snapshot_;
+    return parse_scene(read_metadata(last_snapshot_).at("scene"), last_snapshot_);
+  }
+
+  static bool finished() {
+    const std::string text = content("frames");
+    return text.ends_with(" 1\n");
   }
 
   static std::string report_scene() { return std::string(GLIMT_SCENES) + "/report.toml"; }
 
   fs::path folder_;
-  std::unique_ptr<Process> server_, program_;
+  std::unique_ptr<Process> server_, manager_, program_;
+  int snapshots_ = 0;
+  std::string last_snapshot_;
 };
 
 const Material& material_of(const Scene& scene, const std::string& sphere) {
@@ -169,24 +234,17 @@ const Material& material_of(const Scene& scene, const std::string& sphere) {
 TEST_F(WindowTest, EditsSceneTakesSnapshotAndQuits) {
   open_window(report_scene());
 
-  click("sphere.lambertian.material");
-  click("sphere.lambertian.material.glass");
-  ASSERT_TRUE(wait_for([] { return widgets().contains("sphere.lambertian.material.ior"); })) << content("widgets");
+  click("object.lambertian");
+  choose("object.type", "glass");
+  ASSERT_TRUE(is_there("object.ior")) << content("widgets");
 
-  point_at("sphere.oren-nayar.material.roughness", 0.5);
-  xdotool("mousedown 1");
-  point_at("sphere.oren-nayar.material.roughness", 0.25);
-  xdotool("mouseup 1");
+  click("object.oren-nayar");
+  drag("object.roughness", 0.5, 0.25);
 
   // Taken until the edits are in it: a snapshot shows what is on the screen, which is a moment behind.
   Scene made;
-  int number = 0;
   ASSERT_TRUE(wait_for([&] {
-    xdotool("key s");
-    char file[32];
-    std::snprintf(file, sizeof file, "report-%03d.png", ++number);
-    if (!wait_for([&] { return fs::exists(file) && fs::file_size(file) > 0; })) return false;
-    made = parse_scene(read_metadata(file).at("scene"), file);
+    made = snapshot("report");
     return material_of(made, "oren-nayar").roughness < 0.5;
   })) << content("program.log");
   const Scene before = read_scene(report_scene());
@@ -196,9 +254,7 @@ TEST_F(WindowTest, EditsSceneTakesSnapshotAndQuits) {
   EXPECT_EQ(made.polygons, before.polygons);
   EXPECT_EQ(made.camera, before.camera);
 
-  xdotool("key Escape");
-  EXPECT_EQ(program_->wait(), 0);
-  EXPECT_EQ(content("program.log"), "");
+  close_window();
 }
 
 TEST_F(WindowTest, FollowsItsSize) {
@@ -210,8 +266,7 @@ TEST_F(WindowTest, FollowsItsSize) {
     const auto& r = all.at("snapshot");
     return r[0] < before && r[0] + r[2] < 800;
   })) << content("widgets");
-  xdotool("key ctrl+q");
-  EXPECT_EQ(program_->wait(), 0);
+  close_window();
 }
 
 TEST_F(WindowTest, SpacePausesAndResumes) {
@@ -220,7 +275,8 @@ TEST_F(WindowTest, SpacePausesAndResumes) {
     const std::string text = content("frames");
     return std::count(text.begin(), text.end(), '\n');
   };
-  click("render.spp", 1);  // so many samples that it does not finish
+  click("tab.estimator");
+  click("render.spp", 0.98);  // so many samples that it does not finish
   point_at("image");
   xdotool("key space");
   // The frames stop once it is paused; the mouse stays still.
@@ -232,8 +288,223 @@ TEST_F(WindowTest, SpacePausesAndResumes) {
   const auto before = pictures();
   xdotool("key space");
   EXPECT_TRUE(wait_for([&] { return pictures() > before + 10; }));
+  close_window();
+}
+
+/// The small window manager that decorates, moves and minimises windows.
+class ManagedWindow : public WindowTest {
+ protected:
+  void SetUp() override {
+    if (!have("twm")) GTEST_SKIP() << "needs twm (package twm)";
+    WindowTest::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    std::ofstream config("twmrc");
+    config << "RandomPlacement\nNoGrabServer\n";
+    for (const char* font : {"Title", "Menu", "Icon", "Resize", "IconManager"}) config << font << "Font \"fixed\"\n";
+    config.close();
+    setenv("LC_ALL", "C", 1);
+    manager_ = std::make_unique<Process>(std::vector<std::string>{"twm", "-f", "twmrc"}, "manager.log");
+    room_ = read_scene(report_scene(), small_);
+    std::ofstream("room.toml") << write_scene(room_);
+    open_window("room.toml");
+  }
+
+  /// Drags everything with a number in the panel that is up.
+  static void move_sliders() {
+    for (const auto& [name, ignored] : widgets()) {
+      const std::string group = name.substr(0, name.find('.') + 1), key = name.substr(name.rfind('.') + 1);
+      static const std::set<std::string> groups{"render.", "lamp.", "camera.", "object.", "image."};
+      // Neither menus nor colours nor what is typed.
+      static const std::set<std::string> others{"seed",        "method",   "roulette", "reset",  "type",
+                                                "reflectance", "radiance", "emission", "formula"};
+      if (name == "exposure" || (groups.contains(group) && !others.contains(key) && !names_an_object(name)))
+        drag(name, 0.45, 0.55);
+    }
+  }
+
+  static bool names_an_object(const std::string& widget) {
+    const Scene scene = read_scene(report_scene());
+    for (const auto& object : objects_of(scene))
+      if (widget == "object." + name_of(scene, object)) return true;
+    return false;
+  }
+
+  static std::size_t pictures() {
+    const std::string text = content("frames");
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+
+  const std::vector<std::string> small_{"image.width=120", "image.height=90", "render.spp=16"};
+  Scene room_;
+};
+
+std::vector<unsigned char> pixels_of(const std::string& file) {
+  int width = 0, height = 0, channels = 0;
+  unsigned char* data = stbi_load(file.c_str(), &width, &height, &channels, 3);
+  if (data == nullptr) return {};
+  const std::vector<unsigned char> pixels(data, data + 3 * static_cast<std::ptrdiff_t>(width) * height);
+  stbi_image_free(data);
+  return pixels;
+}
+
+TEST_F(ManagedWindow, EveryMaterialOnEverySphere) {
+  for (const Sphere& sphere : room_.spheres) {
+    click("object." + sphere.name);
+    for (const auto& info : material_infos()) {
+      choose("object.type", std::string(info.name));
+      for (const auto& field : info.fields) EXPECT_TRUE(is_there("object." + std::string(field.key))) << field.key;
+    }
+    choose("object.type", sphere.name == "mirror" ? "light" : "mirror");
+  }
+  Scene made;
+  ASSERT_TRUE(wait_for([&] {
+    made = snapshot("room");
+    return material_of(made, room_.spheres.back().name).type == MaterialType::mirror;
+  }));
+  for (const Sphere& sphere : room_.spheres)
+    EXPECT_EQ(material_of(made, sphere.name).type,
+              sphere.name == "mirror" ? MaterialType::light : MaterialType::mirror);
+  close_window();
+}
+
+TEST_F(ManagedWindow, EverySliderMovesAndEverythingIsUndone) {
+  click("object.oren-nayar");
+  ASSERT_TRUE(is_there("object.roughness"));
+  move_sliders();
+  const std::array<std::array<const char*, 2>, 3> tabs{
+      {{"tab.lamp", "lamp.lamp.size"}, {"tab.camera", "camera.fov_y"}, {"tab.estimator", "image.size"}}};
+  for (const auto& [tab, control] : tabs) {
+    click(tab);
+    ASSERT_TRUE(is_there(control)) << control << " in\n" << content("widgets");
+    move_sliders();
+  }
+  point_at("image");
+  Scene edited;  // a snapshot shows what is on the screen, which is a moment behind
+  ASSERT_TRUE(wait_for([&] {
+    edited = snapshot("room");
+    return edited.image != room_.image;
+  }));
+  EXPECT_NE(material_of(edited, "oren-nayar").roughness, material_of(room_, "oren-nayar").roughness);
+  EXPECT_NE(edited.spheres, room_.spheres);
+  EXPECT_NE(edited.camera, room_.camera);
+  EXPECT_NE(edited.render.shadow_rays, room_.render.shadow_rays);
+  EXPECT_NE(edited.image, room_.image);
+  EXPECT_NE(edited.polygons, room_.polygons) << "the lamp's size";
+
+  // How many samples were there when the snapshot was taken is no part of the edits.
+  const auto untargeted = [](Scene scene) {
+    scene.render = without_target(scene.render);
+    return scene;
+  };
+  const auto ends_with = [&](const char* key, const Scene& scene) {
+    for (int i = 0; i < 40; ++i) xdotool(std::string("key ") + key);
+    return wait_for([&] { return untargeted(snapshot("room")) == untargeted(scene); });
+  };
+  EXPECT_TRUE(ends_with("ctrl+z", room_));
+  EXPECT_TRUE(ends_with("ctrl+shift+z", edited));
+  close_window();
+}
+
+TEST_F(ManagedWindow, MouseSelectsAndOrbits) {
+  ASSERT_FALSE(widgets().contains("object.type"));
+  point_at("image", 0.5, 0.95);
+  xdotool("sleep 0.05 click 1 sleep 0.05");
+  EXPECT_TRUE(is_there("object.type")) << "the floor is selected";
   xdotool("key Escape");
-  EXPECT_EQ(program_->wait(), 0);
+  EXPECT_TRUE(is_gone("object.type"));
+  ASSERT_TRUE(wait_for([] { return finished(); }));
+  const Camera before = snapshot("room").camera;
+  drag("image", 0.5, 0.55);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_TRUE(wait_for([] { return finished(); }));
+  EXPECT_NE(snapshot("room").camera, before);
+  xdotool("key Home");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_TRUE(wait_for([] { return finished(); }));
+  EXPECT_EQ(snapshot("room").camera, before);
+  close_window();
+}
+
+TEST_F(ManagedWindow, MinimisedItRestsAndComesBack) {
+  click("tab.estimator");
+  click("render.spp", 0.98);  // so many samples that it does not finish
+  ASSERT_TRUE(wait_for([&, before = pictures()] { return pictures() > before + 3; }));
+  xdotool("windowsize --sync " + in_window() + " 900 640");
+  ASSERT_TRUE(wait_for([] { return widgets()["snapshot"][0] < 900; }));
+  const std::string id = folder_.string() + "/id";
+  ASSERT_EQ(std::system(("echo " + in_window() + " > " + id).c_str()), 0);
+  // Under a frame it is not where it would be without a window manager.
+  EXPECT_NE(std::system(("xdotool getwindowgeometry $(cat " + id + ") | grep -q 'Position: 0,0 '").c_str()), 0);
+  xdotool("windowminimize $(cat " + id + ")");
+  ASSERT_TRUE(wait_for([] {
+    const auto before = pictures();
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    return pictures() == before;
+  })) << "nothing is drawn that nobody sees";
+  const auto before = pictures();
+  xdotool("windowmap $(cat " + id + ")");
+  EXPECT_TRUE(wait_for([&] { return pictures() > before + 3; }));
+  point_at("image");
+  close_window();
+}
+
+TEST_F(ManagedWindow, SnapshotReopensAsTheSamePicture) {
+  click("object.glass");
+  choose("object.type", "oren-nayar");
+  drag("exposure", 0.5, 0.55);
+  point_at("image");
+  ASSERT_TRUE(wait_for([] { return finished(); }));
+  const Scene made = snapshot("room");
+  const std::string picture = last_snapshot_;
+  xdotool("key ctrl+z");
+  xdotool("key ctrl+o");
+  click("files." + picture);
+  ASSERT_TRUE(says("Opened the scene in " + picture)) << content("widgets");
+  ASSERT_TRUE(wait_for([] { return finished(); }));
+  EXPECT_EQ(snapshot("room"), made);
+  EXPECT_FALSE(pixels_of(picture).empty());
+  EXPECT_EQ(pixels_of(picture), pixels_of(last_snapshot_)) << "bit for bit";
+  close_window();
+}
+
+TEST_F(ManagedWindow, FollowsItsFile) {
+  Scene other = room_;
+  other.spheres[0].radius = 0.5;
+  std::ofstream("room.toml") << write_scene(other);
+  EXPECT_TRUE(says("Read room.toml again"));
+  std::ofstream("room.toml") << write_scene(other) << "oops\n";
+  EXPECT_TRUE(says("room.toml:")) << content("widgets");
+  point_at("image");
+  ASSERT_TRUE(wait_for([] { return finished(); }));
+  EXPECT_EQ(snapshot("room"), other) << "the last good scene stays";
+  std::ofstream("room.toml") << write_scene(room_);
+  EXPECT_TRUE(says("Read room.toml again"));
+  close_window();
+}
+
+TEST_F(ManagedWindow, SettingsSurviveARestartAndDamage) {
+  click("display.tone");
+  click("display.tone.filmic");
+  xdotool("windowsize --sync " + in_window() + " 1000 700");
+  ASSERT_TRUE(wait_for([] { return widgets()["snapshot"][0] < 1000; }));
+  point_at("image");
+  close_window();
+  const fs::path file = folder_ / "config/glimt/window.toml";
+  ASSERT_TRUE(fs::exists(file));
+  open_window("room.toml");
+  const auto& r = widgets()["snapshot"];
+  EXPECT_LT(r[0] + r[2], 1000) << "as large as it was";
+  point_at("image");
+  ASSERT_TRUE(wait_for([] { return finished(); }));
+  snapshot("room");
+  EXPECT_EQ(read_metadata(last_snapshot_).at("tone"), "filmic");
+  close_window();
+
+  std::ofstream(file) << "width = \"wide\"";
+  open_window("room.toml");
+  EXPECT_TRUE(says("damaged"));
+  point_at("image");
+  close_window();
 }
 
 TEST_F(WindowTest, DisplayThatDoesNotAnswerIsNamed) {

@@ -48,7 +48,7 @@ TEST(OrenNayar, IsTheFormulaInAngles) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(0, std::numbers::pi / 2 - 1e-3), turn(0, 2 * std::numbers::pi);
   for (const bool report : {false, true})
-    for (const double sigma : {0.0, 0.1, 0.3, 0.6, 1.0, std::numbers::pi / 2}) {
+    for (const double sigma : {0.0, 0.1, 0.3, 0.6, 0.8, 1.0, std::numbers::pi / 2}) {
       const OrenNayar<float> model = compiled_model(sigma, report);
       for (int i = 0; i < 20000; ++i) {
         const double theta_i = angle(random), theta_o = angle(random), phi_i = turn(random), phi_o = turn(random);

@@ -66,6 +66,57 @@ TEST(Display, ExposureIsInStops) {
   EXPECT_EQ(code_of(0.1f, 0.5), exact_code(0.1 * std::sqrt(2.0)));
 }
 
+TEST(Display, FilmicCurveIsThePublishedOne) {
+  const Display soft{.tone = Tone::filmic};
+  const auto code = [&](float x, double exposure = 0) {
+    return to_srgb8({1, 1, {x, x, x}}, {.exposure = exposure, .tone = soft.tone})[0];
+  };
+  for (const double x : {0.0, 0.01, 0.18, 0.5, 1.0, 2.0, 4.0})
+    EXPECT_EQ(code(static_cast<float>(x)), exact_code(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14))) << x;
+  EXPECT_EQ(code(0.25f, 1), code(0.5f)) << "exposure comes first";
+  int last = 0;
+  for (float x = 0; x < 100; x = x * 1.01f + 0.001f) {
+    EXPECT_GE(code(x), last) << x;
+    last = code(x);
+  }
+  EXPECT_EQ(code(1e30f), 255);
+  EXPECT_EQ(code(std::numeric_limits<float>::infinity()), 255);
+  EXPECT_EQ(code(-5), 0);
+  EXPECT_EQ(code(std::numeric_limits<float>::quiet_NaN()), 0);
+}
+
+TEST(Display, ErrorIsOnALogarithmicColourScale) {
+  const Display view{.view = View::error};
+  const auto [low, high] = colour_scale(View::error);
+  const auto colour = [&](double value, double exposure = 0) {
+    const auto v = static_cast<float>(value);
+    const auto bytes = to_srgb8({1, 1, {v, v, v}}, {.exposure = exposure, .view = view.view});
+    return std::array{bytes[0], bytes[1], bytes[2]};
+  };
+  EXPECT_EQ(colour(low), scale_colour(0));
+  EXPECT_EQ(colour(high), scale_colour(1));
+  EXPECT_EQ(colour(std::sqrt(low * high)), scale_colour(0.5f));
+  EXPECT_EQ(colour(0.1, 1), colour(0.2)) << "errors are as bright as what they are the errors of";
+  EXPECT_EQ(colour(0), scale_colour(0));
+  EXPECT_EQ(colour(std::numeric_limits<double>::infinity()), scale_colour(1)) << "unknown below two samples";
+  EXPECT_EQ(colour(std::numeric_limits<double>::quiet_NaN()), scale_colour(0));
+  int last = -1;
+  for (int i = 0; i <= 100; ++i) {
+    const auto c = scale_colour(static_cast<float>(i) / 100);
+    const int brightness = 2126 * c[0] + 7152 * c[1] + 722 * c[2];
+    EXPECT_GT(brightness, last) << "brighter from step to step";
+    last = brightness;
+  }
+}
+
+TEST(Display, IsReadBackFromItsTexts) {
+  const Display display{.exposure = -1.3, .tone = Tone::filmic, .view = View::samples};
+  EXPECT_EQ(read_display(display_texts(display)), display);
+  EXPECT_EQ(read_display({}), Display{});
+  EXPECT_EQ(read_display({{"exposure", "bright"}, {"tone", "loud"}, {"view", ""}}), Display{});
+  EXPECT_EQ(read_display({{"exposure", "1e9"}}), Display{}) << "out of range";
+}
+
 TEST(Display, KeepsTheOrderOfPixelsAndChannels) {
   const Image image{2, 2, {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}};
   EXPECT_EQ(to_srgb8(image, {}), (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}));

@@ -101,9 +101,10 @@ TEST(Fields, ChoicesSetTheValueTheyName) {
 
 // A method sets what it is made of, and nothing that is not an estimator.
 TEST(Fields, MethodsSetTheirParts) {
-  Settings settings{.spp = 7, .shadow_rays = 3, .seed = 9, .mis = Mis::on, .max_depth = 4};
+  Settings settings{.spp = 7, .target_error = 0.5, .shadow_rays = 3, .seed = 9, .mis = Mis::on, .max_depth = 4};
   set_method(settings, Method::report);
   EXPECT_EQ(settings, (Settings{.spp = 7,
+                                .target_error = 0.5,
                                 .shadow_rays = 3,
                                 .seed = 9,
                                 .method = Method::report,
@@ -112,7 +113,7 @@ TEST(Fields, MethodsSetTheirParts) {
                                 .sampler = Sampler::centres,
                                 .caustics = Caustics::off}));
   set_method(settings, Method::path);
-  EXPECT_EQ(settings, (Settings{.spp = 7, .shadow_rays = 3, .seed = 9}));
+  EXPECT_EQ(settings, (Settings{.spp = 7, .target_error = 0.5, .shadow_rays = 3, .seed = 9}));
 }
 
 TEST(Text, NumbersAreShortAndPlain) {

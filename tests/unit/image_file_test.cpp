@@ -94,10 +94,12 @@ TEST_F(ImageFile, PngIsTheDisplayedPicture) {
   stbi_image_free(pixels);
 }
 
-TEST_F(ImageFile, PngCarriesTheMetadataAndTheExposure) {
+TEST_F(ImageFile, PngCarriesTheMetadataAndTheDisplay) {
   write_image(folder / "a.png", film, {-0.25}, some_metadata);
   Metadata expected = some_metadata;
   expected["exposure"] = "-0.25";
+  expected["tone"] = "linear";
+  expected["view"] = "image";
   EXPECT_EQ(read_metadata(folder / "a.png"), expected);
 }
 

@@ -373,7 +373,7 @@ TEST(ClosestHit, OfAPlaneIsNeverWhereTheRayStarts) {
 TEST(ClosestHit, IsTheSameInEveryLane) {
   for (unsigned seed = 0; seed < scenes; ++seed) {
     const Probe probe(seed);
-    const std::vector<KernelHit> lanes = Batches<NativeLanes>::closest(probe.compiled, probe.rays);
+    const std::vector<KernelHit> lanes = Batches<KernelLanes>::closest(probe.compiled, probe.rays);
     for (std::size_t i = 0; i < probe.rays.size(); ++i) {
       ASSERT_EQ(std::bit_cast<std::uint32_t>(lanes[i].t), std::bit_cast<std::uint32_t>(probe.hits[i].t))
           << probe.describe(i);
@@ -423,7 +423,7 @@ TEST(Occluded, IsTheReferencesUpToItsError) {
     }
     ASSERT_FALSE(rays.empty());
     const std::vector<bool> hidden = Batches<float>::hidden(probe.compiled, rays, tests);
-    EXPECT_EQ(Batches<NativeLanes>::hidden(probe.compiled, rays, tests), hidden) << probe.scene.name;
+    EXPECT_EQ(Batches<KernelLanes>::hidden(probe.compiled, rays, tests), hidden) << probe.scene.name;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       bool must = false, may = false;
       for (const Candidate& c : probe.reference.candidates(lines[i])) {

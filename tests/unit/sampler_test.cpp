@@ -125,14 +125,14 @@ TEST(Sampler, BlocksOfDimensionsHoldAllShadowRays) {
 }
 
 TEST(Sampler, LanesDrawTheScalarNumbers) {
-  using U = Uint<NativeLanes>;
-  std::array<std::uint32_t, lane_count<NativeLanes>> pixel, sample;
-  std::array<float, lane_count<NativeLanes>> lane;
+  using U = Uint<KernelLanes>;
+  std::array<std::uint32_t, lane_count<KernelLanes>> pixel, sample;
+  std::array<float, lane_count<KernelLanes>> lane;
   for (std::uint32_t trial = 0; trial < 10000; ++trial) {
     for (std::uint32_t i = 0; i < pixel.size(); ++i)
       pixel[i] = mix(trial * 64 + i), sample[i] = mix(pixel[i]) >> (trial % 32);
-    const PathKey<NativeLanes> key = path_key<NativeLanes>(trial, load<U>(pixel.data()), load<U>(sample.data()));
-    store(uniform<NativeLanes>(key, trial), lane.data());
+    const PathKey<KernelLanes> key = path_key<KernelLanes>(trial, load<U>(pixel.data()), load<U>(sample.data()));
+    store(uniform<KernelLanes>(key, trial), lane.data());
     for (std::size_t i = 0; i < pixel.size(); ++i)
       ASSERT_EQ(lane[i], uniform<float>(path_key<float>(trial, pixel[i], sample[i]), trial))
           << pixel[i] << " " << sample[i];

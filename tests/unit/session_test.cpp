@@ -7,6 +7,7 @@
 #include <functional>
 #include <thread>
 
+#include "film/statistics.h"
 #include "pictures.h"
 #include "scene/scene_file.h"
 
@@ -191,6 +192,127 @@ TEST(Session, ManyPostsEndWithTheLast) {
   const FramePtr frame = wait_until_finished(session, version, 6);
   ASSERT_TRUE(frame);
   EXPECT_EQ(first_difference(frame->mean.rgb, render(compile(scene), 6).mean().rgb), -1);
+}
+
+/// So many samples that the film is kept.
+constexpr int worth_keeping = 100;
+
+// Back at a scene, a second rendering would start at 1 sample and at 0 seconds.
+TEST(Session, GoingBackBringsTheSamplesBack) {
+  Session session;
+  Scene scene = small_scene(worth_keeping);
+  const FramePtr first = wait_until_finished(session, session.post(scene), worth_keeping);
+  ASSERT_TRUE(first);
+  Scene other = scene;
+  other.spheres[0].radius = 1;
+  ASSERT_TRUE(wait_until_finished(session, session.post(other), worth_keeping));
+  const auto version = session.post(scene);
+  const FramePtr back = wait_for(session, [=](const Frame& f) { return f.version == version; });
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->samples, worth_keeping) << "the first frame already";
+  EXPECT_EQ(back->seconds, first->seconds);
+  EXPECT_EQ(first_difference(back->mean.rgb, first->mean.rgb), -1);
+
+  session.restart();
+  const FramePtr again = wait_for(session, [=](const Frame& f) { return f.version > version && f.finished; });
+  ASSERT_TRUE(again);
+  EXPECT_NE(again->seconds, first->seconds) << "a restart brings nothing back";
+}
+
+// A pass that an edit cancelled is finished when its scene comes back: the image is the one of a rendering without a
+// break.
+TEST(Session, CancelledPassIsNotLost) {
+  Session session;
+  const Scene scene = small_scene(1000);
+  Scene other = scene;
+  other.spheres[0].radius = 1;
+  int samples = 0;
+  for (int i = 0; i < 6; ++i) {
+    const auto version = session.post(scene);
+    const FramePtr more =
+        wait_for(session, [=](const Frame& f) { return f.version == version && f.samples > worth_keeping; });
+    ASSERT_TRUE(more);
+    EXPECT_GE(more->samples, samples);
+    samples = more->samples;
+    std::this_thread::sleep_for(std::chrono::milliseconds(3 * i));
+    session.post(other);
+    std::this_thread::sleep_for(3ms);
+  }
+  const FramePtr end = wait_until_finished(session, session.post(scene), 1000);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(first_difference(end->mean.rgb, render(compile(scene), 1000).mean().rgb), -1);
+}
+
+TEST(Session, FilmsAreKeptUpToSoManyBytes) {
+  const Scene scene = small_scene(worth_keeping);
+  const auto film = [&] { return render(compile(scene), worth_keeping); };
+  FilmCache cache(2 * film().bytes() + 100);
+  const auto scene_of = [&](int seed) {
+    Scene other = scene;
+    other.render.seed = seed;
+    return other;
+  };
+  for (int seed = 1; seed <= 3; ++seed) cache.put(scene_of(seed), {.film = film(), .progress = {}});
+  EXPECT_LE(cache.bytes(), 2 * film().bytes() + 100);
+  EXPECT_FALSE(cache.take(scene_of(1))) << "the oldest has gone";
+  Scene other_target = scene_of(2);
+  other_target.render.spp = 7;
+  other_target.render.target_error = 0.5;
+  const auto kept = cache.take(other_target);
+  ASSERT_TRUE(kept) << "the target does not count";
+  EXPECT_EQ(kept->film.samples(), worth_keeping);
+  EXPECT_FALSE(cache.take(scene_of(2))) << "handed over";
+}
+
+TEST(Session, StopsAtAnEstimatedError) {
+  Session session;
+  Scene scene = small_scene(1);
+  scene.render.target_error = 0.05;
+  const auto version = session.post(scene);
+  const FramePtr end = wait_for(session, [](const Frame& f) { return f.finished; });
+  ASSERT_TRUE(end);
+  EXPECT_GE(end->samples, 8) << "fewer say too little of the error";
+  EXPECT_LE(end->relmse_estimate, 0.05);
+  EXPECT_EQ(relmse_estimate(render(compile(scene), end->samples)), end->relmse_estimate);
+  scene.render.target_error = 0.02;
+  EXPECT_EQ(session.post(scene), version) << "goes on with the samples there are";
+  const FramePtr more = wait_for(session, [](const Frame& f) { return f.finished && f.relmse_estimate <= 0.02; });
+  ASSERT_TRUE(more);
+  EXPECT_GT(more->samples, end->samples);
+}
+
+TEST(Session, StandardErrorIsThereWhereItIsWanted) {
+  Session session;
+  session.set_paused(true);
+  const Scene scene = small_scene(20);
+  const auto version = session.post(scene);
+  session.set_paused(false);
+  const FramePtr without = wait_until_finished(session, version, 20);
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(without->error.rgb.empty()) << "costs memory and time";
+  session.set_error_wanted(true);  // of a rendering that is finished
+  const FramePtr with = wait_for(session, [](const Frame& f) { return !f.error.rgb.empty(); });
+  ASSERT_TRUE(with);
+  EXPECT_EQ(with->version, version);
+  EXPECT_EQ(first_difference(with->error.rgb, render(compile(scene), 20).standard_error().rgb), -1);
+}
+
+// The coarse image that answers an edit covers the same view with fewer pixels.
+TEST(Session, PreviewOfALargeImageComesFirst) {
+  Session session;
+  Scene scene = small_scene(1);
+  scene.image = {1600, 900};
+  std::vector<FramePtr> seen;
+  session.post(scene);
+  ASSERT_TRUE(wait_for(session, [&](const Frame& f) {
+    if (seen.empty() || &f != seen.back().get()) seen.push_back(session.frame());
+    return f.finished;
+  }));
+  const Frame& preview = *seen.front();
+  EXPECT_EQ(preview.samples, 0);
+  EXPECT_EQ(preview.size, scene.image);
+  EXPECT_LT(preview.mean.width * preview.mean.height, 100'000);
+  EXPECT_NEAR(static_cast<double>(preview.mean.width) / preview.mean.height, 16.0 / 9, 0.02);
 }
 
 // Would take hours if it waited for the target, or for one pass of so large a picture to end.

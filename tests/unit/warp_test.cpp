@@ -115,7 +115,7 @@ TEST(Warp, CosineHemisphereFollowsTheCosineAboutEveryNormal) {
 }
 
 TEST(Warp, LanesWarpAsTheScalarFunctionsDo) {
-  using F = NativeLanes;
+  using F = KernelLanes;
   std::array<float, lane_count<F>> a, b, x, y, z;
   std::mt19937 random(5);
   std::uniform_real_distribution<float> u;

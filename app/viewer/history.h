@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace glimt {
+
+/// A scene, and the file that it is from.
+struct Document {
+  std::shared_ptr<const Scene> scene;
+  std::filesystem::path file;
+};
+
+/// What edits can be undone and redone.
+class History {
+ public:
+  /// Notes what there was before an edit. One of the same gesture (not 0) as the edit before belongs to that.
+  void edited(Document before, std::uint64_t gesture);
+  /// Goes back, or forth again, from what there is now; nothing where there is no further.
+  std::optional<Document> undo(Document now) { return move(undo_, redo_, std::move(now)); }
+  std::optional<Document> redo(Document now) { return move(redo_, undo_, std::move(now)); }
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
+
+ private:
+  std::optional<Document> move(std::vector<Document>& from, std::vector<Document>& to, Document now);
+
+  std::vector<Document> undo_, redo_;
+  std::uint64_t gesture_ = 0;
+};
+
+}  // namespace glimt

@@ -1,0 +1,110 @@
+#include "scene/pick.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace glimt {
+namespace {
+
+using glm::dvec3;
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+/// Calls f with the object that the id names.
+template <class S, class F>
+decltype(auto) visit_object(S& scene, const ObjectId& object, F f) {
+  switch (object.kind) {
+    case ObjectKind::sphere:
+      return f(scene.spheres[object.index]);
+    case ObjectKind::mesh:
+      return f(scene.meshes[object.index]);
+    default:
+      return f(scene.polygons[object.index]);
+  }
+}
+
+double hit(const Sphere& sphere, const Ray& ray) {
+  const dvec3 to_eye = ray.origin - sphere.center;
+  const double a = dot(ray.direction, ray.direction), b = dot(to_eye, ray.direction);
+  // The discriminant from the centre's distance to the ray: no cancellation far away.
+  const dvec3 off = to_eye - ray.direction * (b / a);
+  const double discriminant = a * (sphere.radius * sphere.radius - dot(off, off));
+  if (discriminant < 0) return none;
+  const double root = std::sqrt(discriminant);
+  if (-b - root > 0) return (-b - root) / a;
+  return -b + root > 0 ? (-b + root) / a : none;
+}
+
+/// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997, from both sides.
+double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const Ray& ray) {
+  const dvec3 e1 = v1 - v0, e2 = v2 - v0, p = cross(ray.direction, e2);
+  const double determinant = dot(e1, p);
+  if (determinant == 0) return none;
+  const dvec3 s = (ray.origin - v0) / determinant;
+  const double u = dot(s, p);
+  if (!(u >= 0 && u <= 1)) return none;
+  const dvec3 q = cross(s, e1);
+  const double v = dot(ray.direction, q), t = dot(e2, q);
+  return v >= 0 && u + v <= 1 && t > 0 ? t : none;
+}
+
+double hit(const Polygon& polygon, const Ray& ray) {
+  double nearest = none;
+  const auto& v = polygon.vertices;
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) nearest = std::min(nearest, hit(v[0], v[i], v[i + 1], ray));
+  return nearest;
+}
+
+double hit(const Mesh& mesh, const Ray& ray) {
+  double nearest = none;
+  const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
+  for (const auto& t : mesh.triangles) nearest = std::min(nearest, hit(vertex(t[0]), vertex(t[1]), vertex(t[2]), ray));
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<ObjectId> objects_of(const Scene& scene) {
+  std::vector<ObjectId> all;
+  for (std::size_t i = 0; i < scene.spheres.size(); ++i) all.push_back({ObjectKind::sphere, i});
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) all.push_back({ObjectKind::mesh, i});
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) all.push_back({ObjectKind::polygon, i});
+  return all;
+}
+
+bool contains(const Scene& scene, const ObjectId& object) {
+  switch (object.kind) {
+    case ObjectKind::sphere:
+      return object.index < scene.spheres.size();
+    case ObjectKind::mesh:
+      return object.index < scene.meshes.size();
+    default:
+      return object.index < scene.polygons.size();
+  }
+}
+
+const std::string& name_of(const Scene& scene, const ObjectId& object) {
+  return visit_object(scene, object, [](const auto& o) -> const std::string& { return o.name; });
+}
+
+const std::string& material_name_of(const Scene& scene, const ObjectId& object) {
+  return visit_object(scene, object, [](const auto& o) -> const std::string& { return o.material; });
+}
+
+std::string& material_name_of(Scene& scene, const ObjectId& object) {
+  return visit_object(scene, object, [](auto& o) -> std::string& { return o.material; });
+}
+
+std::optional<Pick> pick(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out) {
+  Pick first{{}, none};
+  for (const ObjectId& object : objects_of(scene)) {
+    if (object == left_out) continue;
+    const double distance = visit_object(scene, object, [&](const auto& o) { return hit(o, ray); });
+    if (distance < first.distance) first = {object, distance};
+  }
+  return first.distance < none ? std::optional(first) : std::nullopt;
+}
+
+}  // namespace glimt
