@@ -91,7 +91,7 @@ double render_both(const CompiledScene& a, Film& film_a, const CompiledScene& b,
 
 /// What one piece was with each seed.
 struct Series {
-  std::vector<double> time, noise, efficiency, difference;
+  std::vector<double> time, noise, efficiency, difference, mean;
 };
 
 Ablation summary(const Series& s) {
@@ -105,7 +105,8 @@ Ablation summary(const Series& s) {
           quantile(s.efficiency, 0.25),
           quantile(s.efficiency, 0.75),
           mean,
-          std::sqrt(squares / (count - 1) / count)};
+          std::sqrt(squares / (count - 1) / count),
+          quantile(s.mean, 0.5)};
 }
 
 }  // namespace
@@ -150,6 +151,7 @@ std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& piece
                              const std::function<void(double)>& report) {
   CompiledScene base = compile(scene);
   std::vector<CompiledScene> changed;
+  changed.reserve(pieces.size());
   for (const Piece& piece : pieces) changed.push_back(compile(piece.scene));
   std::vector<Series> all(pieces.size());
   double done = 0;
@@ -164,11 +166,13 @@ std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& piece
       all[i].time.push_back(time);
       all[i].noise.push_back(noise);
       all[i].efficiency.push_back(1 / (noise * time));
+      all[i].mean.push_back(mean(part.mean()) / mean(whole.mean()));
       all[i].difference.push_back(relmse_of_difference(part, whole));
       if (report) report(++done / work);
     }
   }
   std::vector<Ablation> result;
+  result.reserve(all.size());
   for (const Series& series : all) result.push_back(summary(series));
   return result;
 }
@@ -177,7 +181,9 @@ std::string verdict(const Piece& piece, const Ablation& a) {
   // Five standard errors: with few seeds these are themselves uncertain.
   const double margin = 5 * a.difference_error;
   const bool differs = a.difference - margin > visible_difference;
-  const bool same = a.difference + margin < visible_difference;
+  // An error of 0 where the noise is not the same means that no light that matters has been met yet.
+  const bool known = a.difference_error > 0 || a.noise == 1;
+  const bool same = known && a.difference + margin < visible_difference;
   if (piece.model) return differs ? "needed: the image changes" : same ? "not needed here" : "more samples would tell";
   if (differs) return "changes the image";
   if (a.efficiency_low > 1.1) return "better";

@@ -30,6 +30,7 @@ struct Ablation {
   double efficiency_high = 1;   ///< upper quartile
   double difference = 0;        ///< relmse between the images without their noise; below 0 by chance alone
   double difference_error = 0;  ///< its standard error over seeds
+  double mean = 1;              ///< radiance over that of the scene as it is
 };
 
 /// relmse between two films' expected images: mean of (a0 - b0)(a1 - b1) / (m^2 + 0.01) over pixels and channels, a0

@@ -35,6 +35,7 @@ std::map<int, std::vector<const Measurement*>> by_spp(std::span<const Measuremen
 template <class Get>
 std::vector<double> values_of(const std::vector<const Measurement*>& measurements, Get get) {
   std::vector<double> values;
+  values.reserve(measurements.size());
   for (const Measurement* m : measurements) values.push_back(get(*m));
   return values;
 }

@@ -70,20 +70,39 @@ bool can_show(const ChartAxis& axis, double value) { return std::isfinite(value)
 
 bool can_show(const Chart& chart, const ChartPoint& p) { return can_show(chart.x, p.x) && can_show(chart.y, p.y); }
 
-/// The axis that holds a coordinate of all points, with a margin.
-Scale scale_of(const Chart& chart, const ChartAxis& axis, double ChartPoint::*coordinate) {
+/// The axis that holds these values, with a margin.
+Scale scale_of(const ChartAxis& axis, const std::vector<double>& values) {
   Scale scale{axis.logarithmic, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const auto& curve : chart.curves)
-    for (const auto* points : {&curve.points, &curve.thin})
-      for (const auto& point : *points)
-        if (can_show(chart, point)) {
-          scale.first = std::min(scale.first, scale.inner(point.*coordinate));
-          scale.last = std::max(scale.last, scale.inner(point.*coordinate));
-        }
+  for (const double value : values)
+    if (can_show(axis, value)) {
+      scale.first = std::min(scale.first, scale.inner(value));
+      scale.last = std::max(scale.last, scale.inner(value));
+    }
   if (scale.first > scale.last) scale.first = 0, scale.last = 1;
   const double margin = scale.last > scale.first ? 0.04 * (scale.last - scale.first) : 0.5;
   scale.first -= margin, scale.last += margin;
   return scale;
+}
+
+std::vector<double> xs_of(const Chart& chart) {
+  std::vector<double> values;
+  for (const auto& curve : chart.curves)
+    for (const auto* points : {&curve.points, &curve.thin})
+      for (const auto& p : *points)
+        if (can_show(chart, p)) values.push_back(p.x);
+  return values;
+}
+
+/// Bands included.
+std::vector<double> ys_of(const Chart& chart) {
+  std::vector<double> values;
+  for (const auto& curve : chart.curves) {
+    for (const auto& p : curve.points)
+      if (can_show(chart, p)) values.insert(values.end(), {p.y, p.low, p.high});
+    for (const auto& p : curve.thin)
+      if (can_show(chart, p)) values.push_back(p.y);
+  }
+  return values;
 }
 
 std::string power_label(int exponent, int digit) {
@@ -114,7 +133,8 @@ std::vector<Tick> linear_ticks(const Scale& scale) {
   const double rough = (scale.last - scale.first) / 5, power = std::pow(10, std::floor(std::log10(rough)));
   const double step = power * (rough < 2 * power ? 2 : rough < 5 * power ? 5 : 10);
   std::vector<Tick> ticks;
-  for (double i = std::ceil(scale.first / step); i * step <= scale.last; ++i)
+  const int last = static_cast<int>(std::floor(scale.last / step));
+  for (int i = static_cast<int>(std::ceil(scale.first / step)); i <= last; ++i)
     ticks.push_back({i * step, number(i * step, "%.4g")});
   return ticks;
 }
@@ -126,7 +146,7 @@ std::vector<Tick> ticks_of(const Scale& scale) {
 class Drawing {
  public:
   explicit Drawing(const Chart& chart)
-      : chart_(chart), x_(scale_of(chart, chart.x, &ChartPoint::x)), y_(scale_of(chart, chart.y, &ChartPoint::y)) {}
+      : chart_(chart), x_(scale_of(chart.x, xs_of(chart))), y_(scale_of(chart.y, ys_of(chart))) {}
 
   std::string svg() {
     const std::string body = axes() + guide() + curves() + legend();
@@ -176,7 +196,8 @@ class Drawing {
   std::string guide() const {
     if (chart_.guide.empty()) return {};
     std::string svg = "<g clip-path='url(#plot)' " + std::string(guide_style) + ">\n";
-    for (double power = std::ceil(x_.first + y_.first); power <= x_.last + y_.last; ++power) {
+    const int last = static_cast<int>(std::floor(x_.last + y_.last));
+    for (int power = static_cast<int>(std::ceil(x_.first + y_.first)); power <= last; ++power) {
       const auto at = [&](double x) { return down(std::pow(10, power - x)); };
       svg += line(left, at(x_.first), left + plot_width, at(x_.last), "");
     }
@@ -231,12 +252,14 @@ class Drawing {
     for (std::size_t i = 0; i < chart_.curves.size(); ++i) {
       const auto [colour, dash, marker] = style_of(i);
       const double x = left + static_cast<double>(i % columns) * plot_width / static_cast<double>(columns);
-      const double y = first + static_cast<double>(i / columns) * row_height;
+      const std::size_t row = i / columns;
+      const double y = first + static_cast<double>(row) * row_height;
       svg += line(x, y - 4.5, x + 40, y - 4.5,
                   "stroke='" + std::string(colour) + "' stroke-width='2' stroke-dasharray='" + dash + "'");
       svg += marker_at(x + 20, y - 4.5, colour, marker) + text(x + 49, y, "", escaped(chart_.curves[i].label));
     }
-    double y = first + row_height * static_cast<double>((chart_.curves.size() + columns - 1) / columns);
+    const std::size_t rows = (chart_.curves.size() + columns - 1) / columns;
+    double y = first + row_height * static_cast<double>(rows);
     if (!chart_.guide.empty()) {
       svg += line(left, y - 4.5, left + 40, y - 4.5, guide_style) + text(left + 49, y, "", escaped(chart_.guide));
       y += row_height;

@@ -28,6 +28,7 @@ int run_cli(int argc, char** argv) {
   add_render_command(app, run);
   add_compare_command(app, run);
   add_chart_command(app, run);
+  add_report_command(app, run);
   add_info_command(app, run);
   try {
     app.parse(argc, argv);

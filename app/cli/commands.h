@@ -20,6 +20,7 @@ void add_window_command(CLI::App& app, Run& run);
 void add_render_command(CLI::App& app, Run& run);
 void add_compare_command(CLI::App& app, Run& run);
 void add_chart_command(CLI::App& app, Run& run);
+void add_report_command(CLI::App& app, Run& run);
 void add_info_command(CLI::App& app, Run& run);
 
 /// Renders as `glimt render SCENE -o OUT` does.

@@ -38,14 +38,16 @@ TEST_F(Use, SaysItsVersion) {
 }
 
 TEST_F(Use, EveryCommandHasHelp) {
-  for (const Arguments& arguments : {Arguments{"--help"}, Arguments{"render", "--help"}, Arguments{"compare", "--help"},
-                                     Arguments{"chart", "--help"}, Arguments{"info", "-h"}}) {
+  for (const Arguments& arguments :
+       {Arguments{"--help"}, Arguments{"render", "--help"}, Arguments{"compare", "--help"},
+        Arguments{"chart", "--help"}, Arguments{"report", "--help"}, Arguments{"info", "-h"}}) {
     const Result result = glimt(arguments);
     EXPECT_EQ(result.status, 0);
     EXPECT_TRUE(has(result.out, "Usage: glimt")) << result.out;
     EXPECT_EQ(result.err, "");
   }
-  for (const char* command : {"render", "compare", "chart", "info"}) EXPECT_TRUE(has(glimt({"--help"}).out, command));
+  for (const char* command : {"render", "compare", "chart", "report", "info"})
+    EXPECT_TRUE(has(glimt({"--help"}).out, command));
 }
 
 TEST_F(Use, HelpOfRenderComesFromTheListOfSettings) {

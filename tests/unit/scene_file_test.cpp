@@ -32,7 +32,7 @@ Scene small_scene() {
 
 TEST(SceneFile, ScenesOfTheProjectSurviveWriting) {
   int scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(GLIMT_SCENES)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(GLIMT_SCENES)) {
     if (entry.path().extension() != ".toml") continue;
     SCOPED_TRACE(entry.path());
     const Scene scene = read_scene(entry.path());
@@ -40,7 +40,7 @@ TEST(SceneFile, ScenesOfTheProjectSurviveWriting) {
     EXPECT_EQ(write_scene(reread(scene)), write_scene(scene));
     ++scenes;
   }
-  EXPECT_GE(scenes, 6);
+  EXPECT_GE(scenes, 9);
 }
 
 TEST(SceneFile, HoldsWhatTheFileSays) {

@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+
+#include "chart/runs.h"
+#include "chart/svg_chart.h"
+#include "cli/report_parts.h"
+#include "film/statistics.h"
+#include "scene/compiled_scene.h"
+
+namespace glimt {
+namespace {
+
+struct Difficulty {
+  std::string title;
+  ChartAxis axis;
+  const char* material;  ///< of the sphere
+  std::vector<double> values;
+  void (*set)(Scene&, double);
+};
+
+Polygon& lamp_of(Scene& scene) {
+  return *std::ranges::find_if(scene.polygons, [](const Polygon& p) { return p.material == "lamp"; });
+}
+
+glm::dvec3 middle_of(const Polygon& polygon) {
+  glm::dvec3 sum{0};
+  for (const auto& v : polygon.vertices) sum += v;
+  return sum / static_cast<double>(polygon.vertices.size());
+}
+
+Material& material(Scene& scene, const std::string& name) {
+  return *std::ranges::find(scene.materials, name, &Material::name);
+}
+
+/// A square lamp of that side, as strong as before.
+void set_lamp_side(Scene& scene, double side) {
+  Polygon& lamp = lamp_of(scene);
+  const glm::dvec3 middle = middle_of(lamp);
+  const double scale = side / std::abs(lamp.vertices[1].x - lamp.vertices[0].x);
+  for (auto& v : lamp.vertices) v = middle + scale * (v - middle);
+  material(scene, "lamp").radiance /= scale * scale;
+}
+
+/// The sphere, made smaller, under the lamp with that gap between them.
+void set_gap(Scene& scene, double gap) {
+  Sphere& sphere = scene.spheres.front();
+  sphere.radius = 0.8;
+  sphere.center = middle_of(lamp_of(scene)) - glm::dvec3{0, sphere.radius + gap, 0};
+}
+
+void set_roughness(Scene& scene, double roughness) { material(scene, "clay").roughness = roughness; }
+void set_ior(Scene& scene, double ior) { material(scene, "glass").ior = ior; }
+
+void set_reflectance(Scene& scene, double reflectance) {
+  for (Material& m : scene.materials)
+    if (is_diffuse(m.type)) m.reflectance = glm::dvec3{reflectance};
+}
+
+const std::vector<Difficulty>& difficulties() {
+  static const std::vector<Difficulty> list{
+      {"Size of the lamp",
+       {"side of the square lamp of constant power, metres", true},
+       "clay",
+       {0.02, 0.1, 0.5, 1, 2, 4},
+       set_lamp_side},
+      {"Distance to the lamp",
+       {"gap between sphere and lamp, metres", true},
+       "clay",
+       {0.003, 0.01, 0.03, 0.1, 0.3, 1, 3},
+       set_gap},
+      {"Roughness",
+       {"roughness of the Oren-Nayar sphere, radians", false},
+       "clay",
+       {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5},
+       set_roughness},
+      {"Refractive index", {"index of the glass sphere", false}, "glass", {1, 1.1, 1.25, 1.5, 2, 2.5}, set_ior},
+      {"Reflectance",
+       {"reflectance of all diffuse surfaces", false},
+       "clay",
+       {0.1, 0.3, 0.5, 0.7, 0.85, 0.95},
+       set_reflectance},
+  };
+  return list;
+}
+
+struct Way {
+  const char *label, *method;
+  Mis mis;
+};
+constexpr std::array ways{Way{"report", "report", Mis::off}, Way{"naive", "naive", Mis::off},
+                          Way{"path", "path", Mis::off}, Way{"path, mis on", "path", Mis::on}};
+
+Scene scene_at(const ReportPlan& plan, const Difficulty& difficulty, double value, const Way& way) {
+  Scene scene = report_scene(
+      plan, "sphere",
+      {std::string("sphere.sphere.material=") + difficulty.material, std::string("render.method=") + way.method});
+  scene.image = {plan.side() / 4, plan.side() / 4};
+  scene.render.mis = way.mis;
+  difficulty.set(scene, value);
+  return scene;
+}
+
+/// Median and quartiles over seeds of the error that each way leaves at one value.
+void add_value(std::vector<ChartCurve>& curves, const ReportPlan& plan, const Difficulty& difficulty, double value) {
+  const int seeds = plan.quick ? 2 : 5;
+  const CompiledScene truth = compile(scene_at(plan, difficulty, value, ways.back()));
+  Film reference = make_film(truth);
+  render_pass(truth, reference, plan.spp(4096), plan.execution);
+  const Image image = reference.mean();
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    CompiledScene scene = compile(scene_at(plan, difficulty, value, ways[i]));
+    std::vector<double> errors;
+    for (int seed = 0; seed < seeds; ++seed) {
+      scene.settings.seed = 100 + seed;
+      Film film = make_film(scene);
+      render_pass(scene, film, plan.spp(64), plan.execution);
+      errors.push_back(compare(film.mean(), image).relmse);
+    }
+    curves[i].points.push_back({value, quantile(errors, 0.5), quantile(errors, 0.25), quantile(errors, 0.75)});
+  }
+}
+
+}  // namespace
+
+void add_stability(Page& page, const ReportPlan& plan) {
+  page.heading("Stability: where methods fail");
+  page.paragraph("One sphere in the room; in each chart one thing goes from easy to hard. Errors are relmse at " +
+                 std::to_string(plan.spp(64)) + " spp against a picture of " + std::to_string(plan.spp(4096)) +
+                 " spp by path with multiple importance sampling. A black picture's relmse is below 1, so a method "
+                 "that never meets the lamp looks better than one that meets it now and then.");
+  for (const Difficulty& difficulty : difficulties()) {
+    plan.say("stability: " + difficulty.title);
+    Chart chart{difficulty.title, difficulty.axis, {"relmse at " + std::to_string(plan.spp(64)) + " spp"}, {}, {}, {}};
+    for (const Way& way : ways) chart.curves.push_back({way.label, {}, {}});
+    for (const double value : difficulty.values) add_value(chart.curves, plan, difficulty, value);
+    page.chart(svg_chart(chart), "Median and quartiles over seeds.");
+  }
+}
+
+}  // namespace glimt
