@@ -47,6 +47,9 @@ template <class M>
 struct TwiceMask {
   M a, b;
 
+  TwiceMask() = default;
+  TwiceMask(M low, M high) : a(low), b(high) {}
+
   friend TwiceMask operator&(TwiceMask x, TwiceMask y) { return {x.a & y.a, x.b & y.b}; }
   friend TwiceMask operator|(TwiceMask x, TwiceMask y) { return {x.a | y.a, x.b | y.b}; }
   friend TwiceMask operator!(TwiceMask x) { return {!x.a, !x.b}; }
