@@ -43,7 +43,7 @@ int main(int argc, char** argv) try {
   Scene scene = read_scene(argv[1]);
   scene.image = {std::max(scene.image.width / 8, 1), std::max(scene.image.height / 8, 1)};
   const CompiledScene compiled = compile(scene);
-  const nlohmann::json result{{"lanes", native_lane_count()},
+  const nlohmann::json result{{"lanes", lane_count<NativeLanes>},
                               {"needed", operations<float>(compiled)},
                               {"executed", operations<NativeLanes>(compiled)}};
   std::puts(result.dump(1).c_str());
