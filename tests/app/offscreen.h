@@ -88,10 +88,15 @@ class Offscreen {
     }
     return false;
   }
-  /// Draws until the newest scene is on the screen with all its samples.
+  /// Draws until the newest scene is on the screen with all its samples. A frame that was finished before its target
+  /// was changed does not count.
   bool draw_until_finished() {
-    return draw_until(
-        [&] { return state().frame && state().frame->finished && state().frame->version >= state().version; });
+    return draw_until([&] {
+      const auto& frame = state().frame;
+      if (!frame || !frame->finished || frame->version < state().version) return false;
+      const Settings& target = state().scene.render;
+      return target.target_error > 0 ? frame->relmse_estimate <= target.target_error : frame->samples >= target.spp;
+    });
   }
 
   /// Moves the mouse to a place in the image (pixels from its top left), presses, drags by so many window coordinates,
