@@ -1,8 +1,11 @@
 #pragma once
 
+#include "viewer/compare_layer.h"
 #include "viewer/files_panel.h"
 #include "viewer/image_tool.h"
 #include "viewer/image_view.h"
+#include "viewer/inspector.h"
+#include "viewer/panels.h"
 #include "viewer/state.h"
 #include "viewer/widgets.h"
 
@@ -27,12 +30,19 @@ class Screen {
   void toggle_help() { help_ = !help_; }
   void show_files(FilesPanel::Purpose purpose, const ViewerState& state) { files_.show(purpose, state); }
   void fit_picture() { tool_.fit(); }
-  void show_pixel_by_pixel() { tool_.set_zoom(1); }
+  void show_pixel_by_pixel() { tool_.set_zoom({.zoom = 1}); }
   /// Closes the sheets over the picture, or selects nothing.
   void escape(Edits& edits);
+  /// The keys of chart and comparison.
+  void press(char letter, const ViewerState& state, Edits& edits);
+  /// A file dropped into the window: a scene, a picture with its scene, or a reference, which PFM files and pictures
+  /// dropped onto the chart are.
+  void drop(const std::filesystem::path& file, Edits& edits) const;
 
  private:
-  void draw_column(const ViewerState& state, const Rect& place, Edits& edits);
+  void draw_column(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests);
+  void carry_out(const Requests& requests, const ViewerState& state, Edits& edits);
+  void go_to_worst_pixel(const ViewerState& state, Edits& edits);
   void draw_tabs(const ViewerState& state, Edits& edits);
   void draw_status(const ViewerState& state, const Rect& place, const Placement& picture);
   void draw_hint(const Rect& area) const;
@@ -41,6 +51,9 @@ class Screen {
 
   WidgetRects widgets_;
   std::unique_ptr<ImageView> image_;
+  std::unique_ptr<CompareLayer> compare_;
+  Inspector inspector_;
+  Rect chart_;  ///< in the last picture
   ImageTool tool_;
   FilesPanel files_;
   bool help_ = false;

@@ -50,6 +50,7 @@ void on_letter(Inbox& in, char letter, bool control, bool shift) {
   if (letter == 's') (shift ? edits.snapshot_exr : edits.snapshot) = true;
   if (letter == 'f') in.screen->fit_picture();
   if (letter == '1') in.screen->show_pixel_by_pixel();
+  in.screen->press(letter, *in.state, edits);
   if (letter == 'v') {
     edits.display = in.state->display;
     edits.display->view = next(edits.display->view);
@@ -83,7 +84,7 @@ void on_character(GLFWwindow* window, unsigned character) {
 
 void on_drop(GLFWwindow* window, int count, const char** paths) {
   inbox(window).touched = true;
-  if (count > 0) inbox(window).edits.open = paths[0];
+  if (count > 0) inbox(window).screen->drop(paths[0], inbox(window).edits);
 }
 
 void set_callbacks(GLFWwindow* window, Inbox& in) {
@@ -125,7 +126,8 @@ void wait(double next_picture, bool settled) {
 void remember(const Window& window, const ViewerState& state) {
   const auto file = window_settings_file();
   if (file.empty()) return;
-  WindowSettings settings{.display = state.display, .folder = state.folder, .hint_seen = !state.hint};
+  WindowSettings settings{
+      .display = state.display, .folder = state.folder, .hint_seen = !state.hint, .chart = state.chart.view};
   window.size(settings.width, settings.height);
   try {
     write_window_settings(file, settings);
@@ -140,7 +142,7 @@ void run(const std::filesystem::path& scene_file) {
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
   Controller controller(std::move(scene), scene_file, [] { glfwPostEmptyEvent(); });
-  controller.recall(settings.display, settings.folder, !settings.hint_seen, note);
+  controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note);
   const Window window(settings.width, settings.height);
   Inbox in;
   set_callbacks(window.handle(), in);
