@@ -70,7 +70,8 @@ void draw_dashed(ImDrawList& list, const std::vector<ImVec2>& places, const Curv
                      style.colour, width);
       left -= end - done;
       done = end;
-      if (left <= 0) left = style::scaled(style.dashes[++dash % style.dashes.size()]);
+      // A rest too small to be added to `done` would never end.
+      if (left < 0.01F) left = style::scaled(style.dashes[++dash % style.dashes.size()]);
     }
   }
 }
