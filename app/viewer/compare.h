@@ -20,6 +20,7 @@ enum class CompareView {
 struct Held {
   std::shared_ptr<const Frame> frame;  ///< null where nothing is held
   std::string label;
+  std::uint64_t curve = 0;  ///< of the chart, whose label says what it is; 0: none
 };
 
 struct Compare {

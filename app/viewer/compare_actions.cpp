@@ -10,11 +10,17 @@ std::string size_text(const ImageSize& size) {
 }  // namespace
 
 Held picture_b(const ViewerState& state) {
-  if (!state.compare.with_reference || !state.chart.reference) return state.compare.held;
-  return {state.chart.reference->frame, "reference"};
+  if (state.compare.with_reference && state.chart.reference) return {state.chart.reference->frame, "reference"};
+  Held held = state.compare.held;
+  // What differs from the other curves may have become more since.
+  if (const Curve* curve = state.chart.curves.find(held.curve)) held.label = curve->label;
+  return held;
 }
 
-Held picture_now(const ViewerState& state) { return {state.frame, label_of_picture(state)}; }
+Held picture_now(const ViewerState& state) {
+  const Curve* curve = state.chart.curves.current();
+  return {state.frame, label_of_picture(state), curve ? curve->id : 0};
+}
 
 std::string label_of_picture(const ViewerState& state) {
   const Curve* curve = state.chart.curves.current();
