@@ -97,7 +97,10 @@ void set_callbacks(GLFWwindow* window, Inbox& in) {
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { inbox(w).touched = true; });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { inbox(w).touched = true; });
   glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { inbox(w).touched = true; });
-  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { inbox(w).touched = true; });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) {
+    inbox(w).touched = true;
+    inbox(w).screen->forget_picture();
+  });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { inbox(w).touched = true; });
   glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { inbox(w).touched = true; });
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { inbox(w).edits.quit = true; });
@@ -162,14 +165,21 @@ void run(const std::filesystem::path& scene_file) {
     if (unsettled == 0) continue;
 
     --unsettled;
-    next_picture = glfwGetTime() + window.frame_time();
+    const double start = glfwGetTime();
     ImGui_ImplGlfw_NewFrame();
-    screen.draw(controller.state(), window.scale(), in.edits);
-    glfwSwapBuffers(window.handle());
-    logs.shown(controller.state(), screen.widgets());
+    screen.lay_out(controller.state(), window.scale(), in.edits);
+    // Before the picture is painted, so that the answer to an edit is rendered meanwhile.
     const bool quit = in.edits.quit;
     controller.apply(std::exchange(in.edits, {}));
     in.edits.quit = quit;
+    const bool painted = screen.paint();
+    // Where nothing changes on the screen, edits are taken in sooner than it can show pictures.
+    next_picture = start + window.frame_time() * (painted ? 1 : 0.25);
+    if (painted) {
+      glfwSwapBuffers(window.handle());
+      logs.picture(controller.state());
+    }
+    logs.laid_out(screen.widgets());
   }
   remember(window, controller.state());
 }

@@ -191,10 +191,11 @@ void Session::work() {
         }
       }
       now = kept ? std::move(*kept) : Accumulation{.film = make_film(*job->compiled), .progress = {}};
+      if (now.pass == 0) now.relmse_estimate = relmse_estimate(now.film);
       more = now.film.samples() == 0 || now.pass > 0;
     }
     if (more) render_some(*job, now);
-    if (now.pass > 0) continue;  // cancelled
+    if (now.pass > 0 || (job->preview && cancel_)) continue;  // nobody waits for this image any more
     shown = true;
     shown_finished = finished(job->scene.render, now);
     shown_error = with_error;
@@ -222,7 +223,7 @@ void Session::render_some(const Job& job, Accumulation& now) {
   now.seconds += seconds_since(start);
   if (!done) return;
   now.pass = 0;
-  now.relmse_estimate = relmse_estimate(now.film);
+  if (first_image || !cancel_) now.relmse_estimate = relmse_estimate(now.film);
 }
 
 void Session::show(const Job& job, const Accumulation& now, bool with_error) {
