@@ -174,7 +174,7 @@ void run(const std::filesystem::path& scene_file) {
     in.edits.quit = quit;
     const bool painted = screen.paint();
     // Where nothing changes on the screen, edits are taken in sooner than it can show pictures.
-    next_picture = start + window.frame_time() * (painted ? 1 : 0.25);
+    next_picture = start + window.frame_time() * (painted ? 1 : 0.125);
     if (painted) {
       glfwSwapBuffers(window.handle());
       logs.picture(controller.state());
