@@ -43,7 +43,11 @@ void Controller::recall(const Display& display, fs::path folder, bool show_hint,
 
 bool Controller::poll() {
   bool news = false;
-  if (auto frame = session_.frame(); frame != state_.frame) {
+  // More samples of a scene that is edited meanwhile are not worth showing: the answer to the edit is on its way.
+  const auto outdated = [&](const Frame& frame) {
+    return state_.frame && frame.version == state_.frame->version && frame.version < state_.version;
+  };
+  if (auto frame = session_.frame(); frame != state_.frame && !(frame && outdated(*frame))) {
     state_.frame = std::move(frame);
     if (state_.frame) posted_.erase(posted_.begin(), shown());
     news = true;

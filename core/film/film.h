@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,8 +20,12 @@ struct Image {
   const float* pixel(int x, int y) const { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
 };
 
+/// Asks for huge pages in new memory, where it is large enough and the system has them: to be given small ones, and to
+/// give them back, takes a film longer than a path through each pixel.
+void use_huge_pages(void* memory, std::size_t bytes);
+
 /// Memory that is zero without being written to, so that a large film is there at once and its pages come as they are
-/// needed: huge ones where the system has them, since a thousand small ones take longer than a path through each pixel.
+/// needed.
 template <class T>
 struct ZeroedMemory {
   using value_type = T;
@@ -31,10 +33,7 @@ struct ZeroedMemory {
   T* allocate(std::size_t n) {
     void* memory = std::calloc(n, sizeof(T));
     if (memory == nullptr) throw std::bad_alloc();
-    constexpr std::uintptr_t page = 4096, mask = page - 1;
-    const auto first = (reinterpret_cast<std::uintptr_t>(memory) + mask) & ~mask;
-    const auto last = (reinterpret_cast<std::uintptr_t>(memory) + n * sizeof(T)) & ~mask;
-    if (last > first) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+    use_huge_pages(memory, n * sizeof(T));
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t) { std::free(memory); }
