@@ -46,7 +46,11 @@ void Controller::recall(const Display& display, const ChartView& chart, fs::path
 
 bool Controller::poll() {
   bool news = false;
-  if (auto frame = session_.frame(); frame != state_.frame) {
+  // More samples of a scene that is edited meanwhile are not worth showing: the answer to the edit is on its way.
+  const auto outdated = [&](const Frame& frame) {
+    return state_.frame && frame.version == state_.frame->version && frame.version < state_.version;
+  };
+  if (auto frame = session_.frame(); frame != state_.frame && !(frame && outdated(*frame))) {
     state_.frame = std::move(frame);
     if (state_.frame) posted_.erase(posted_.begin(), shown());
     if (state_.frame && shown()->second == now_) charting_.add(state_.frame);

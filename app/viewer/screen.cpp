@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -22,6 +23,22 @@ constexpr auto fixed_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_N
 void place_window(const Rect& place) {
   ImGui::SetNextWindowPos({place.x, place.y});
   ImGui::SetNextWindowSize({place.width, place.height});
+}
+
+/// All that decides what a picture looks like, but for what its textures hold.
+std::string bytes_of(const ImDrawData& data) {
+  std::string bytes;
+  const auto add = [&bytes](const auto* first, int count) {
+    bytes.append(reinterpret_cast<const char*>(first), static_cast<std::size_t>(count) * sizeof *first);
+  };
+  add(&data.DisplaySize, 1);
+  add(&data.FramebufferScale, 1);
+  for (const ImDrawList* list : std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {
+    add(list->CmdBuffer.Data, list->CmdBuffer.Size);
+    add(list->VtxBuffer.Data, list->VtxBuffer.Size);
+    add(list->IdxBuffer.Data, list->IdxBuffer.Size);
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -53,7 +70,7 @@ void Screen::set_scale(float scale, float ratio) {
   ImGui_ImplOpenGL2_CreateFontsTexture();
 }
 
-void Screen::draw(const ViewerState& state, float scale, Edits& edits) {
+void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   const ImGuiIO& io = ImGui::GetIO();
   const float ratio = io.DisplayFramebufferScale.x;
   set_scale(scale, ratio);
@@ -85,11 +102,21 @@ void Screen::draw(const ViewerState& state, float scale, Edits& edits) {
   selected_ = state.selected;
 
   ImGui::Render();
+}
+
+bool Screen::paint() {
+  const ImDrawData& data = *ImGui::GetDrawData();
+  std::string lists = bytes_of(data);
+  if (const bool new_image = image_->prepare(); !new_image && lists == painted_) return false;
+  painted_ = std::move(lists);
+
   const ImVec4 backdrop = ImColor(style::backdrop);
-  glViewport(0, 0, static_cast<int>(io.DisplaySize.x * ratio), static_cast<int>(io.DisplaySize.y * ratio));
+  glViewport(0, 0, static_cast<int>(data.DisplaySize.x * data.FramebufferScale.x),
+             static_cast<int>(data.DisplaySize.y * data.FramebufferScale.y));
   glClearColor(backdrop.x, backdrop.y, backdrop.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL2_RenderDrawData(ImGui::GetDrawData());
+  return true;
 }
 
 void Screen::follow_gesture(Edits& edits) {

@@ -12,7 +12,8 @@
 namespace glimt {
 
 /// Draws the window's contents with ImGui and OpenGL 2 into the current context, whoever made it. Owns the ImGui
-/// context; sizes, mouse and keys are set in ImGui::GetIO() by the platform before each draw().
+/// context; sizes, mouse and keys are set in ImGui::GetIO() by the platform before each
+/// lay_out().
 class Screen {
  public:
   Screen();
@@ -20,10 +21,15 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Draws everything and adds what was asked for to `edits`. `scale` is window coordinates per unit of design.
-  void draw(const ViewerState& state, float scale, Edits& edits);
+  /// Lays out the next picture and adds what was asked for to `edits`. `scale` is window coordinates per unit of
+  /// design.
+  void lay_out(const ViewerState& state, float scale, Edits& edits);
+  /// Draws what was laid out, unless the last picture looked the same; true where it drew.
+  bool paint();
+  /// The last picture is lost.
+  void forget_picture() { painted_.clear(); }
 
-  /// Where the controls of the last draw() are.
+  /// Where the controls of the last lay_out() are.
   const WidgetRects& widgets() const { return widgets_; }
 
   // What keys do to the screen itself.
@@ -50,6 +56,7 @@ class Screen {
   void follow_gesture(Edits& edits);
 
   WidgetRects widgets_;
+  std::string painted_;  ///< all of ImGui's lists in the last picture
   std::unique_ptr<ImageView> image_;
   std::unique_ptr<CompareLayer> compare_;
   Inspector inspector_;

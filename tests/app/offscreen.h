@@ -78,8 +78,9 @@ class Offscreen {
     for (int i = 0; i < pictures; ++i) {
       controller_->poll();
       Edits edits;
-      screen_->draw(controller_->state(), scale_, edits);
+      screen_->lay_out(controller_->state(), scale_, edits);
       controller_->apply(edits);
+      screen_->paint();
     }
     glFinish();
   }

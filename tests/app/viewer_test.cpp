@@ -80,6 +80,22 @@ TEST(Viewer, ShowsTheRenderedPicturePixelByPixel) {
   EXPECT_GT(std::set(shown.begin(), shown.end()).size(), 500U) << "a picture of the room has many colours";
 }
 
+// Whatever is in the framebuffer stays there.
+TEST(Viewer, PicturesThatLookTheSameArePaintedOnce) {
+  Offscreen window(small_room(), window_width, window_height);
+  ASSERT_TRUE(window.draw_until_finished());
+  const auto before = picture(window);
+  const std::vector<std::array<int, 3>> black(before.size());
+  ASSERT_NE(before, black);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  window.draw();
+  EXPECT_EQ(picture(window), black);
+  window.screen().forget_picture();
+  window.draw();
+  EXPECT_EQ(picture(window), before);
+}
+
 TEST(Viewer, ExposureBrightensWithoutRestart) {
   Offscreen window(small_room(), window_width, window_height);
   ASSERT_TRUE(window.draw_until_finished());
