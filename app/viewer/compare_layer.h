@@ -10,6 +10,8 @@ namespace glimt {
 class CompareLayer {
  public:
   void draw(const ViewerState& state, const Rect& area, const Placement& picture);
+  /// As ImageView's.
+  bool prepare() { return image_.prepare(); }
   /// The line of the split, which can be dragged. Above the picture, below all panels.
   void draw_line(const ViewerState& state, const Rect& area, const Placement& picture, Edits& edits);
 

@@ -107,7 +107,8 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
 bool Screen::paint() {
   const ImDrawData& data = *ImGui::GetDrawData();
   std::string lists = bytes_of(data);
-  if (const bool new_image = image_->prepare(); !new_image && lists == painted_) return false;
+  const bool new_picture = image_->prepare(), new_comparison = compare_->prepare();
+  if (!new_picture && !new_comparison && lists == painted_) return false;
   painted_ = std::move(lists);
 
   const ImVec4 backdrop = ImColor(style::backdrop);

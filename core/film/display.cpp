@@ -76,9 +76,9 @@ float filmic(float x) {
   return v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f);
 }
 
-/// From dark to bright, evenly enough that steps are seen everywhere. 8-bit sRGB.
+/// From dark to bright in steps that look alike (CIE L*a*b*), in grey too. 8-bit sRGB.
 constexpr std::array<std::array<float, 3>, 5> scale_stops{
-    {{14, 15, 34}, {52, 52, 140}, {176, 58, 116}, {244, 148, 62}, {255, 250, 205}}};
+    {{25, 19, 36}, {74, 40, 139}, {192, 71, 116}, {249, 149, 79}, {241, 236, 196}}};
 
 std::vector<std::uint8_t> on_colour_scale(const Image& image, const ColourScale& scale, float factor) {
   const auto low = static_cast<float>(std::log2(scale.low));
