@@ -1,5 +1,6 @@
 #include "viewer/chart_panel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -35,6 +36,21 @@ std::vector<Drawn> drawn_curves(const ChartState& chart) {
   return drawn;
 }
 
+/// Some curves at a time in a layer of their own: ImGui's lists, one to a layer, hold 2^16 vertices.
+void draw_in_layers(const Plot& plot, const Rect& place, const std::vector<Drawn>& drawn) {
+  constexpr std::size_t in_one = 8;
+  for (std::size_t first = 0; first < drawn.size(); first += in_one) {
+    ImGui::SetCursorScreenPos({place.x, place.y});
+    ImGui::BeginChild(("curves" + std::to_string(first)).c_str(), {place.width, place.height}, false,
+                      ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoDecoration);
+    for (std::size_t i = first; i < std::min(first + in_one, drawn.size()); ++i) {
+      plot.draw_thin(drawn[i].thin, drawn[i].style.colour);
+      plot.draw_curve(drawn[i].points, drawn[i].style);
+    }
+    ImGui::EndChild();
+  }
+}
+
 /// Returns what is under the mouse.
 std::optional<PlotPoint> draw_error_plot(const ChartState& chart, const Rect& place) {
   const std::vector<Drawn> drawn = drawn_curves(chart);
@@ -46,12 +62,10 @@ std::optional<PlotPoint> draw_error_plot(const ChartState& chart, const Rect& pl
   }
   const Plot plot(place, all);
   plot.draw_axes(chart.view.across == Across::seconds ? "seconds" : "samples per pixel",
-                 compared ? "relMSE: against the reference; thin, as the two halves estimate it"
-                          : "relMSE, as two halves of the samples estimate it");
+                 compared ? "relMSE to the reference; thin: as estimated" : "relMSE, estimated from two halves");
   plot.draw_guide(chart.view.across == Across::seconds ? "1/time (root: slope -1/2)" : "1/samples (root: slope -1/2)");
   if (chart.reference_fits) plot.draw_level(chart.reference->frame->relmse_estimate, "the reference's own error");
-  for (const Drawn& d : drawn) plot.draw_thin(d.thin, d.style.colour);
-  for (const Drawn& d : drawn) plot.draw_curve(d.points, d.style);
+  draw_in_layers(plot, place, drawn);
   const auto pointer = plot.under_mouse();
   if (pointer) plot.draw_crosshair(*pointer);
   return pointer;

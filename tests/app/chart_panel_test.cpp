@@ -288,6 +288,31 @@ TEST_F(ChartPanel, AdvisesOnShadowRays) {
   EXPECT_NE(window.state().message.text.find("shadow rays play no part"), std::string::npos);
 }
 
+// ImGui's lists hold 2^16 vertices, and more would be drawn as garbage.
+TEST_F(ChartPanel, MostCurvesThereCanBeFitIntoALargeWindow) {
+  Offscreen window(small_room(4), 3840, 2160);
+  ASSERT_TRUE(window.draw_until_finished());
+  ViewerState state = window.state();
+  state.chart.view.shown = true;
+  Scene scene = state.scene;
+  for (std::size_t i = 0; i < Curves::most; ++i) {
+    scene.render.seed = static_cast<int>(i) + 2;
+    const auto shared = std::make_shared<const Scene>(scene);
+    for (int samples = 2; samples < 1 << 20; samples += samples / 4 + 1) {
+      const double error = (1 + 0.02 * static_cast<double>(i)) / samples;
+      state.chart.curves.add(shared, {samples, samples * 1e-3, error, Comparison{.relmse = 1.1 * error}});
+    }
+  }
+  Edits edits;
+  for (int i = 0; i < 3; ++i) window.screen().lay_out(state, 1, edits);
+  window.screen().paint();
+  glFinish();
+  save_screenshot(window, "chart-most");
+  const ImDrawData& data = *ImGui::GetDrawData();
+  for (int i = 0; i < data.CmdListsCount; ++i) EXPECT_LT(data.CmdLists[i]->VtxBuffer.Size, 1 << 16);
+  EXPECT_GT(data.TotalVtxCount, 100'000) << "the curves are there";
+}
+
 TEST_F(ChartPanel, IsRemembered) {
   WindowSettings settings;
   settings.chart = {true, Across::samples};
