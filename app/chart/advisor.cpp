@@ -74,6 +74,7 @@ ShadowRayAdvice shadow_ray_advice(std::span<const int> rays, std::span<const Mea
   advice.best = best_shadow_rays(advice.model);
 
   std::vector<double> bests;
+  bests.reserve(by_seed.size());
   for (const auto& [seed, runs] : by_seed) bests.push_back(best_shadow_rays(shadow_ray_model(runs[0], runs[1])));
   advice.low = static_cast<int>(std::floor(quantile(bests, 0.25)));
   advice.high = static_cast<int>(std::ceil(quantile(bests, 0.75)));

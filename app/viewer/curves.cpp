@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <iterator>
 #include <set>
 #include <utility>
-
-#include "viewer/scene_difference.h"
 
 namespace glimt {
 namespace {
@@ -113,9 +111,13 @@ Curve& Curves::curve_of(const std::shared_ptr<const Scene>& scene) {
       current_ = curve.id;
       return curve;
     }
-  if (all_.size() == most) all_.erase(all_.begin());
+  if (all_.size() == most) erase(all_.begin());
   current_ = ++last_id_;
-  all_.push_back({.id = current_, .scene = std::move(untargeted), .label = {}, .points = {}, .gesture = gesture_});
+  Curve& curve = all_.emplace_back();
+  curve.id = current_;
+  curve.scene = std::move(untargeted);
+  curve.gesture = gesture_;
+  curve.differences = differences(*all_.front().scene, *curve.scene);
   relabel();
   return all_.back();
 }
@@ -130,8 +132,17 @@ void Curves::set_shown(std::uint64_t id, bool shown) {
 }
 
 void Curves::remove(std::uint64_t id) {
-  std::erase_if(all_, [&](const Curve& curve) { return curve.id == id; });
+  const auto curve = std::ranges::find(all_, id, &Curve::id);
+  if (curve == all_.end()) return;
+  erase(curve);
   relabel();
+}
+
+void Curves::erase(std::vector<Curve>::const_iterator curve) {
+  const bool first = curve == all_.begin();
+  all_.erase(curve);
+  if (!first) return;
+  for (Curve& other : all_) other.differences = differences(*all_.front().scene, *other.scene);
 }
 
 void Curves::clear() {
@@ -150,7 +161,7 @@ void Curves::relabel() {
   std::vector<std::string> firsts;
   for (std::size_t i = 1; i < all_.size(); ++i) {
     std::vector<std::string> parts;
-    for (const Difference& d : differences(*all_.front().scene, *all_[i].scene)) {
+    for (const Difference& d : all_[i].differences) {
       parts.push_back(d.to);
       if (keys.insert(d.key).second) firsts.push_back(d.from);
     }

@@ -8,6 +8,7 @@
 
 #include "film/statistics.h"
 #include "scene/scene.h"
+#include "viewer/scene_difference.h"
 
 namespace glimt {
 
@@ -26,7 +27,8 @@ struct Curve {
   std::string label;             ///< what differs from the first curve; of that, what the others change
   std::vector<RunPoint> points;  ///< by increasing samples, each a fifth more or so than the one before
   bool shown = true;
-  std::uint64_t gesture = 0;  ///< the edit that it began with
+  std::uint64_t gesture = 0;            ///< the edit that it began with
+  std::vector<Difference> differences;  ///< from the first curve's scene
 };
 
 /// What a curve is drawn against.
@@ -76,6 +78,7 @@ class Curves {
 
  private:
   Curve& curve_of(const std::shared_ptr<const Scene>& scene);
+  void erase(std::vector<Curve>::const_iterator curve);
   void relabel();
 
   std::vector<Curve> all_;

@@ -206,7 +206,8 @@ TEST_F(SettingsFile, SurviveARestart) {
                           .height = 700,
                           .display = {.exposure = -1.25, .tone = Tone::filmic},
                           .folder = "/a \"b\"",
-                          .hint_seen = true};
+                          .hint_seen = true,
+                          .chart = {true, Across::samples}};
   write_window_settings(file, settings);
   const WindowSettings back = read_window_settings(file, note);
   EXPECT_EQ(note, "");
@@ -214,6 +215,7 @@ TEST_F(SettingsFile, SurviveARestart) {
   EXPECT_EQ(back.height, 700);
   EXPECT_EQ(back.display, settings.display);
   EXPECT_EQ(back.folder, settings.folder);
+  EXPECT_EQ(back.chart, settings.chart);
   EXPECT_TRUE(back.hint_seen);
 }
 
