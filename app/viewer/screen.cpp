@@ -81,6 +81,7 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   follow_gesture(edits);
   const ImageSize& size = state.scene.image;
   Layout layout = make_layout(io.DisplaySize.x, io.DisplaySize.y, scale);
+  const Rect sheets = layout.image;  // which may lie over the chart
   if (state.chart.view.shown) layout = with_chart(layout, size.width, size.height, scale);
   chart_ = layout.chart;
   const Placement picture = place_image(size.width, size.height, layout.image, ratio, tool_.zoom());
@@ -97,8 +98,8 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   if (state.chart.view.shown) draw_chart_panel(state, layout.chart, edits, requests);
   carry_out(requests, state, edits);
   draw_status(state, layout.status, picture);
-  files_.draw(layout.image, edits);
-  if (help_ && draw_help_panel(layout.image)) help_ = false;
+  files_.draw(sheets, edits);
+  if (help_ && draw_help_panel(sheets)) help_ = false;
   selected_ = state.selected;
 
   ImGui::Render();
