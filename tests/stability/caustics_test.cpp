@@ -9,15 +9,16 @@ using namespace glimt;
 
 namespace {
 
-/// A floor under a glass ball and a lamp of that edge, of the same power whatever its size. Caustics alone.
+/// The floor under a glass ball and a lamp of that edge, of the same power whatever its size. Caustics alone, the ball
+/// out of sight.
 Scene ball_on_floor(double edge) {
   Scene scene;
   scene.materials = {lambertian("white", dvec3{0.7}), light("lamp", dvec3{4 / (edge * edge)}), glass("glass", 1.5)};
   scene.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
   const double h = edge / 2;
   scene.polygons.push_back({"lamp", "lamp", {{-h, 0.95, -h}, {h, 0.95, -h}, {h, 0.95, h}, {-h, 0.95, h}}});
-  scene.spheres = {{"ball", "glass", {0, -0.4, 0}, 0.5}};
-  scene.camera = {{0, 0.4, 1.9}, {0, -0.8, 0}, {0, 1, 0}, 60};
+  scene.spheres = {{"ball", "glass", {0, 0.3, 0}, 0.4}};
+  scene.camera = {{0, -0.2, 1.9}, {0, -1, 0.2}, {0, 1, 0}, 40};
   scene.image = {48, 48};
   scene.render.caustics = Caustics::only;
   return scene;
@@ -66,7 +67,7 @@ TEST(CausticsOfALamp, HaveNoMoreNoiseHoweverSmallItIs) {
 TEST(CausticsOfALamp, AreRightWhereTheBallTouchesTheFloor) {
   for (const double gap : {1e-2, 1e-4, 0.0, -1e-3}) {
     Scene scene = ball_on_floor(1);
-    scene.spheres[0].center.y = -0.5 + gap;
+    scene.spheres[0].center.y = -0.6 + gap;
     scene.render.light_paths = 0.2;
     const Noise traced = noise(scene, 16 * effort);
     scene.render.light_paths = 0;
