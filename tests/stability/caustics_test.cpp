@@ -69,10 +69,10 @@ TEST(CausticsOfALamp, AreRightWhereTheBallTouchesTheFloor) {
     Scene scene = ball_on_floor(1);
     scene.spheres[0].center.y = -0.6 + gap;
     scene.render.light_paths = 0.2;
-    const Noise traced = noise(scene, 16 * effort);
+    const Noise traced = noise(scene, 4 * effort);
     scene.render.light_paths = 0;
     scene.render.seed = 1000;
-    const Noise chance = noise(scene, 64 * effort);
+    const Noise chance = noise(scene, 16 * effort);
     EXPECT_GT(likelihood(traced.mean, chance.mean), sidak(1e-4, 4))
         << gap << " m: " << traced.mean.mean << " +- " << traced.mean.error << " against " << chance.mean.mean << " +- "
         << chance.mean.error;
@@ -85,9 +85,9 @@ TEST(CausticsOfALamp, AreNoWorseThanByChanceCloseToTheEye) {
   for (const double height : {0.1, 1e-2, 1e-3, 1e-5}) {
     Scene scene = ball_on_floor(1);
     scene.camera = {{0.3, -1 + height, 0.3}, {0.3, -1, 0.3}, {1, 0, 0}, 60};
-    const Noise shared = noise(scene, 16 * effort);
+    const Noise shared = noise(scene, 4 * effort);
     scene.render.light_paths = 0;
-    const Noise chance = noise(scene, 16 * effort);
+    const Noise chance = noise(scene, 4 * effort);
     EXPECT_LT(shared.variance, 2 * chance.variance) << height << " m";
     EXPECT_GT(likelihood(shared.mean, chance.mean), sidak(1e-4, 4)) << height << " m";
   }
