@@ -125,8 +125,7 @@ class LightPathTracer {
       direction = select(equal(at.kind, I(kind_glass)), surfaces_.scatter_glass(s.ray.direction, at, uv.u).direction,
                          direction);
     s.ray = {at.point, direction, at.surface};
-    const F survival =
-        min(max_component(reflectance), F(largest_survival)) * select(diffuse, F(after_diffuse), F(1.0f));
+    const F survival = min(max_component(reflectance), F(largest_survival));
     const M plays = diffuse | !less(s.depth, I(scene_.settings.roulette_depth));
     ended = ended | (plays & !(number(s, HitDimension::roulette) < survival));
     s.flux = s.flux * select(plays, reciprocal(survival), F(1.0f));
@@ -172,7 +171,6 @@ class LightPathTracer {
   static constexpr std::uint32_t light_path_seeds = 1u << 31;  ///< apart from all seeds of camera paths
   static constexpr std::uint32_t longest_sequence = 1u << 30;
   static constexpr std::uint32_t hit_block = static_cast<std::uint32_t>(HitDimension::lamp) + shadow_dimensions;
-  static constexpr float after_diffuse = 1.0f;
   static constexpr float largest_survival = 0.99f;  ///< so that light trapped in glass ends
   static constexpr int done_capacity = 128;
   template <class T>
