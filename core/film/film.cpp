@@ -84,15 +84,21 @@ void Film::add_unusual(std::uint64_t& sum, float value) {
   sum = std::min(sum + added, largest_sum);
 }
 
-void Film::splat(int pixel, int half, float r, float g, float b) {
-  std::uint64_t* sums = sums_[static_cast<std::size_t>(half)].data() + 3 * static_cast<std::size_t>(pixel);
-  for (const float value : {r, g, b}) {
-    const std::uint64_t added = checked_units(value);
-    const std::atomic_ref sum(*sums++);
-    std::uint64_t before = sum.load(std::memory_order_relaxed);
-    while (!sum.compare_exchange_weak(before, std::min(before + added, largest_sum), std::memory_order_relaxed)) {
+void Film::add(int half, std::span<const Splat> splats) {
+  std::uint64_t* const first = sums_[static_cast<std::size_t>(half)].data();
+  const auto place = [&](std::size_t i) { return first + 3 * static_cast<std::size_t>(splats[i].pixel); };
+  constexpr std::size_t ahead = 8;  // pixels are far apart, and an addition waits for its own
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    if (i + ahead < splats.size()) __builtin_prefetch(place(i + ahead), 1);
+    std::uint64_t* sums = place(i);
+    for (const float value : {splats[i].r, splats[i].g, splats[i].b}) {
+      const std::uint64_t added = checked_units(value);
+      const std::atomic_ref sum(*sums++);
+      std::uint64_t before = sum.load(std::memory_order_relaxed);
+      while (!sum.compare_exchange_weak(before, std::min(before + added, largest_sum), std::memory_order_relaxed)) {
+      }
+      if (added > largest_sum - before) count(saturated_);
     }
-    if (added > largest_sum - before) count(saturated_);
   }
 }
 

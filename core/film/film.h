@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "kernel/kernels.h"
+
 namespace glimt {
 
 /// Linear RGB, row by row from the top, three floats a pixel. W/(m^2 sr) where it holds radiance.
@@ -61,8 +63,8 @@ class Film {
   /// The same for one pixel.
   void add(int pixel, int half, float r, float g, float b) { add(pixel, half, std::array{r, g, b}); }
 
-  /// Adds to what a pixel has already of a sample, from any thread and in any order.
-  void splat(int pixel, int half, float r, float g, float b);
+  /// Adds to what pixels have already of a sample of that half, from any thread and in any order.
+  void add(int half, std::span<const Splat> splats);
 
   /// Counters that are 0 in a sound render.
   std::uint64_t invalid() const { return invalid_; }

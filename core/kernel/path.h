@@ -40,7 +40,6 @@ class PathTracer {
         rgb_(rgb),
         light_traced_(light_traced),
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
-        roulette_begin_(scene.settings.roulette == Roulette::constant ? trapped_depth : scene.settings.roulette_depth),
         next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0 &&
                     choices().caustics != Caustics::only),
         mis_(next_event_ && choices().mis == Mis::on) {}
@@ -257,11 +256,13 @@ class PathTracer {
   /// Ends paths at random and makes up for it in those that go on.
   M roulette(PathState<F>& s, F brightest, const M& diffuse) const {
     const bool constant = scene_.settings.roulette == Roulette::constant;
-    const M late = !less(s.depth, I(roulette_begin_));
-    const M plays = constant ? diffuse | late : late;
-    if (!any(plays)) return plays;
+    const M trapped = !less(s.depth, I(trapped_depth));
     // The square of the index is left out: it comes back when the path leaves the glass.
-    const F survival = constant ? F(constant_survival) : min(brightest * s.ior2, F(largest_survival));
+    const F share = brightest * s.ior2 * F(static_cast<float>(1 / scene_.settings.roulette_below));
+    const M late = (share < F(1.0f)) & !less(s.depth, I(scene_.settings.roulette_depth));
+    const M plays = trapped | (constant ? diffuse : late);
+    if (!any(plays)) return plays;
+    const F survival = constant ? F(constant_survival) : min(share, F(largest_survival));
     const M dies = plays & !(number(s, HitDimension::roulette) < survival);
     s.throughput = s.throughput * select(plays, reciprocal(survival), F(1.0f));
     return dies;
@@ -282,8 +283,7 @@ class PathTracer {
   Surfaces<F, features> surfaces_;
   float* rgb_;
   bool light_traced_;
-  std::uint32_t hit_block_;      ///< dimensions of a hit
-  std::int32_t roulette_begin_;  ///< depth of the first hit at which every path plays roulette
+  std::uint32_t hit_block_;  ///< dimensions of a hit
   bool next_event_;
   bool mis_;
 

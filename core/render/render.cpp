@@ -91,7 +91,7 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
         const LightBlock block{first, std::min(light_block_paths, scene.light_paths - first), sample_number(sample)};
         splats.clear();
         trace_light(scene, block, execution.lanes, splats);
-        for (const Splat& s : splats) film.splat(s.pixel, static_cast<int>(block.sample & 1u), s.r, s.g, s.b);
+        film.add(static_cast<int>(block.sample & 1u), splats);
         return 1;
       });
     }

@@ -35,7 +35,7 @@ constexpr auto choice(std::span<const std::string_view> names) {
 constexpr double max_radiance = 1e9;
 
 // The method comes before what it sets, so that what a file or command line says beside it holds.
-const std::array<Field<Settings>, 13> settings_table{{
+const std::array<Field<Settings>, 14> settings_table{{
     {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
     {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
      &Settings::target_error, 0, 1e6},
@@ -53,6 +53,12 @@ const std::array<Field<Settings>, 13> settings_table{{
     {"roulette", "probability of survival: the path's throughput, or constant 0.75 at diffuse hits",
      choice<&Settings::roulette>(roulette_names)},
     {"roulette_depth", "surface hits before roulette by throughput begins", &Settings::roulette_depth, 0, 64},
+    {.key = "roulette_below",
+     .doc = "throughput below which it is played, with the chance throughput / roulette_below",
+     .member = &Settings::roulette_below,
+     .min = 0,
+     .max = 1,
+     .min_excluded = true},
     {"sampler", "random numbers: independent, stratified 4x4, lattice, Owen-scrambled Sobol, or sub-pixel centres",
      choice<&Settings::sampler>(sampler_names)},
     {"caustics", "light that reaches a diffuse surface by way of mirrors or glass: off, on, or nothing else",

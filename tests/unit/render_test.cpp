@@ -60,7 +60,7 @@ TEST(Render, FilmHoldsTheKernelsValues) {
     splats.clear();
     trace_light(scene, {0, scene.light_paths, static_cast<std::uint32_t>(s)}, Lanes::native, splats);
     EXPECT_GT(splats.size(), 0u);
-    for (const Splat& splat : splats) film.splat(splat.pixel, s % 2, splat.r, splat.g, splat.b);
+    film.add(s % 2, splats);
   }
   film.finish_pass(3);
   EXPECT_EQ(sums(render(scene, 3)), sums(film));
