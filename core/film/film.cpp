@@ -69,20 +69,30 @@ void Film::add(int first_pixel, int half, std::span<const float> rgb) {
       }
 }
 
-void Film::add_unusual(std::uint64_t& sum, float value) {
+std::uint64_t Film::checked_units(float value) {
   if (!(value >= 0 && std::isfinite(value))) {
     count(invalid_);
-    return;
+    return 0;
   }
   const double scaled = value * scale_;  // a whole number from 2^24 units on
-  const std::uint64_t added = scaled < magic    ? units(value, scale_)
-                              : scaled < 0x1p63 ? static_cast<std::uint64_t>(scaled)
-                                                : largest_sum + 1;
-  if (added > largest_sum - sum) {
-    count(saturated_);
-    sum = largest_sum;
-  } else {
-    sum += added;
+  return scaled < magic ? units(value, scale_) : scaled < 0x1p63 ? static_cast<std::uint64_t>(scaled) : largest_sum + 1;
+}
+
+void Film::add_unusual(std::uint64_t& sum, float value) {
+  const std::uint64_t added = checked_units(value);
+  if (added > largest_sum - sum) count(saturated_);
+  sum = std::min(sum + added, largest_sum);
+}
+
+void Film::splat(int pixel, int half, float r, float g, float b) {
+  std::uint64_t* sums = sums_[static_cast<std::size_t>(half)].data() + 3 * static_cast<std::size_t>(pixel);
+  for (const float value : {r, g, b}) {
+    const std::uint64_t added = checked_units(value);
+    const std::atomic_ref sum(*sums++);
+    std::uint64_t before = sum.load(std::memory_order_relaxed);
+    while (!sum.compare_exchange_weak(before, std::min(before + added, largest_sum), std::memory_order_relaxed)) {
+    }
+    if (added > largest_sum - before) count(saturated_);
   }
 }
 

@@ -61,6 +61,9 @@ class Film {
   /// The same for one pixel.
   void add(int pixel, int half, float r, float g, float b) { add(pixel, half, std::array{r, g, b}); }
 
+  /// Adds to what a pixel has already of a sample, from any thread and in any order.
+  void splat(int pixel, int half, float r, float g, float b);
+
   /// Counters that are 0 in a sound render.
   std::uint64_t invalid() const { return invalid_; }
   std::uint64_t saturated() const { return saturated_; }
@@ -91,6 +94,8 @@ class Film {
   double radiance(std::uint64_t sum) const {
     return static_cast<double>(static_cast<std::int64_t>(sum)) * (1 / scale_);
   }
+  /// In units of the fixed point, above the largest sum where it does not fit; counts what is no radiance.
+  std::uint64_t checked_units(float value);
   void add_unusual(std::uint64_t& sum, float value);
 
   int width_ = 0;

@@ -120,12 +120,6 @@ double lit_distance(const LampPiece& lamp, const dvec3& origin, const Piece& pie
   return lit.empty() ? far : distance_between_polygons(lit, outline);
 }
 
-double area_of(const LampPiece& p) {
-  if (p.shape == LampShape::sphere || p.shape == LampShape::sphere_by_area)
-    return 4 * std::numbers::pi * p.e1.x * p.e1.x;
-  return length(cross(p.e1, p.e2)) * (p.shape == LampShape::triangle ? 0.5 : 1.0);
-}
-
 void warn_of_near_lamps(Lowering& l, const std::vector<Piece>& pieces) {
   const Settings& s = l.out.settings;
   if (s.light_sampling == LightSampling::none || s.mis == Mis::on || l.lamps.size() * pieces.size() > most_pairs)

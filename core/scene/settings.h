@@ -41,7 +41,7 @@ enum class Sampler {
 };
 
 /// Light that reaches a diffuse surface by way of mirrors or glass.
-enum class Caustics { off, on };
+enum class Caustics { off, on, only };
 
 /// Everything that says how a scene is rendered, and nothing of what is in it. Declared for files, command line and
 /// window in fields.cpp.
@@ -57,7 +57,8 @@ struct Settings {
   int roulette_depth = 3;  ///< surface hits before `throughput` roulette begins
   Sampler sampler = Sampler::lattice;
   Caustics caustics = Caustics::on;
-  int max_depth = 0;  ///< surfaces that a path may meet, its lamp included; 0: no limit
+  double light_paths = 0.05;  ///< from lamps to mirrors and glass, for each path from the camera; 0: no light tracing
+  int max_depth = 0;          ///< surfaces that a path may meet, its lamp included; 0: no limit
 
   bool operator==(const Settings&) const = default;
 };
