@@ -138,6 +138,7 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   const bool glass = material.type == MaterialType::glass;
   const dvec3 c = sphere.center - l.origin;
   const int surface = l.add_surface({&material, c, 1 / sphere.radius, glass ? relative_ior(l.scene, sphere) : 1});
+  l.surface_of_sphere[&sphere] = surface;
   const auto f = to_floats(c);
   const bool around_eye = length(l.scene.camera.eye - sphere.center) < sphere.radius;
   auto& list = glass ? l.out.glass_spheres : around_eye ? l.out.shells : l.out.spheres;
@@ -228,7 +229,7 @@ void describe(Lowering& l) {
 CompiledScene compile(const Scene& scene) {
   if (const std::vector<Problem> problems = validate(scene); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
-  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}};
+  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;
@@ -245,6 +246,7 @@ CompiledScene compile(const Scene& scene) {
   fill_surfaces(l);
   lower_lamps(l);
   lower_aims(l);
+  lower_chains(l);
   describe(l);
   warn(l);
   return std::move(l.out);

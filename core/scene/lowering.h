@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "scene/compiled_scene.h"
 #include "scene/reach.h"
 
@@ -41,6 +43,7 @@ struct Lowering {
   std::vector<Surface> surfaces;
   std::vector<LampPiece> lamps;
   std::vector<Target> targets;
+  std::map<const Sphere*, int> surface_of_sphere;
   CompiledScene out;
 
   const Material& material(const std::string& name) const {
@@ -87,6 +90,11 @@ void add_target(Lowering& l, const Material& material, const BoundingSphere& bou
                 int last_surface);
 /// The table that light paths begin from, and how many there are; after lower_lamps().
 void lower_aims(Lowering& l);
+
+double distance_to_polygon(const glm::dvec3& p, const std::vector<glm::dvec3>& polygon);
+
+/// The spheres over which diffuse surfaces are connected to lamps; after lower_lamps().
+void lower_chains(Lowering& l);
 
 /// Warnings for scenes in which the chosen estimators cannot hold.
 void warn(Lowering& l);

@@ -1,0 +1,249 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "kernel/random.h"
+#include "kernel/shading.h"
+#include "kernel/sphere_chain.h"
+
+/// Connections of a diffuse surface x to a point y of a lamp over one specular sphere, for caustics that are seen in a
+/// mirror or through glass, where light paths do not come (Walter, Zhao, Holzschuch and Bala, "Single scattering in
+/// refractive media with triangle mesh boundaries", 2009; Hanika, Droske and Fascione, "Manifold next event
+/// estimation", 2015). They share with paths that find the same chain by chance, by the balance heuristic (Veach 1997).
+namespace glimt {
+
+/// How far a path has come that left a diffuse surface.
+enum ChainStage : std::int32_t { chain_none, chain_open, chain_inside, chain_reflected, chain_refracted };
+
+template <class F>
+struct ChainState {
+  Int<F> stage;  ///< ChainStage; in the last two the path comes from the sphere and the chain is complete
+  F pdf_w;       ///< with which x chose the direction
+  F distance2;   ///< of x to the sphere's centre
+};
+
+/// A diffuse surface that is connected, as the path there sees it.
+template <class F>
+struct ConnectionPoint {
+  Shading<F> at;
+  Vec3<F> wo;
+  Vec3<F> throughput;  ///< with the reflectance of x
+  PathKey<F> key;
+  Int<F> depth, path;
+};
+
+template <class F, Features features>
+class Connector {
+  using I = Int<F>;
+  using U = Uint<F>;
+  using M = Mask<F>;
+  using V = Vec3<F>;
+
+ public:
+  explicit Connector(const CompiledScene& scene) : scene_(scene), surfaces_(scene) {}
+
+  /// Room for the sums of so many paths.
+  void begin(int paths) { sums_.assign(3 * static_cast<std::size_t>(paths), 0.0f); }
+
+  /// Connects the lanes in the mask, now or later: diffuse surfaces wait until they fill all lanes.
+  void add(ConnectionPoint<F> p, const M& mask) {
+    visit(p, [&]<class N>(N& value, auto& places) {
+      compress<N, F>(value, mask, places.data() + static_cast<std::ptrdiff_t>(count_));
+    });
+    count_ += std::popcount(bits(mask));
+    if (count_ < lane_count<F>) return;
+    connect(lane_count<F>);
+    count_ -= lane_count<F>;
+    visit(p, [](auto&, auto& places) { std::copy_n(places.begin() + lane_count<F>, lane_count<F>, places.begin()); });
+  }
+
+  /// Adds to each path what its connections found. In the order of its surfaces, whatever other paths there are.
+  void finish(float* rgb) {
+    if (count_ > 0) connect(count_);
+    count_ = 0;
+    for (std::size_t i = 0; i < sums_.size(); ++i) rgb[i] += sums_[i];
+  }
+
+  /// What a path counts of the lamp it has found at the end of a complete chain.
+  F chance_share(const ChainState<F>& chain, const Ray<F>& ray, const Shading<F>& lamp, const I& lamp_row) const {
+    Shading<F> sphere = lamp;
+    sphere.surface = ray.from;
+    const V center = surfaces_.vector(Column::normal_x, sphere);
+    const F inverse_radius = surfaces_.value(Column::inverse_radius, sphere);
+    const F radius = reciprocal(inverse_radius);
+    const V way = lamp.point - center;
+    const F cos = min(max(dot(ray.origin - center, ray.direction) * inverse_radius, F(0.0f)), F(1.0f));
+    const F b = sqrt(fnma(cos, cos, F(1.0f)));
+    const ChainEnd<F> x = chain_end(sqrt(chain.distance2), radius), y = chain_end(sqrt(dot(way, way)), radius);
+    const M refracted = equal(chain.stage, I(chain_refracted));
+    F tube = reflected_ray(x, y, b, cos).tube;
+    F chosen = F(1.0f);
+    if (scene_.has_glass) {
+      const F eta = surfaces_.value(Column::eta, sphere);
+      const Dielectric<F> interface =
+          fresnel(cos, eta, reciprocal(eta), surfaces_.value(Column::schlick, sphere) > F(0.5f));
+      const SphereLens<F> lens = sphere_lens(eta);
+      const F cos_omega = select(eta > F(1.0f), cos, interface.cos_t);
+      tube = select(refracted, refracted_ray(lens, x, y, b * reciprocal(lens.outside), cos_omega).tube, tube);
+      const F passed = F(1.0f) - interface.reflected;
+      const M glass = equal(as_int(surfaces_.value(Column::kind, sphere)), I(kind_glass));
+      chosen = select(glass, select(refracted, passed * passed, interface.reflected), F(1.0f));
+    }
+    const F inverse_pdf_a = LampRow<F, false>{scene_, lamp_row}[LampColumn::inverse_choice] *
+                            area_not_chosen(LampRow<F, false>{scene_, lamp_row});
+    const F chance = chain.pdf_w * chosen * inverse_pdf_a;
+    const F lamps = F(static_cast<float>(scene_.settings.shadow_rays)) * tube * reciprocal(lamp.cos_o);
+    return select(chance > F(0.0f), chance * reciprocal(chance + lamps), F(0.0f));
+  }
+
+ private:
+  template <class T>
+  using Waiting = std::array<T, 3 * lane_count<F>>;
+
+  /// f(number, its places) for all that is kept of a point.
+  template <class Function>
+  void visit(ConnectionPoint<F>& p, Function f) {
+    auto numbers = numbers_.begin();
+    for (V* v : {&p.at.point, &p.at.normal, &p.wo, &p.throughput})
+      for (F* x : {&v->x, &v->y, &v->z}) f(*x, *numbers++);
+    f(p.at.cos_o, *numbers);
+    auto integers = integers_.begin();
+    for (I* i : {&p.at.surface, &p.depth, &p.path}) f(*i, *integers++);
+    auto keys = keys_.begin();
+    for (U* u : {&p.key.a, &p.key.b, &p.key.index}) f(*u, *keys++);
+  }
+
+  /// Lamps that light sampling chooses points of by solid angle have only their choice in inverse_choice.
+  template <bool one>
+  F area_not_chosen(const LampRow<F, one>& lamp) const {
+    const auto has = [&](LampShape s) { return scene_.has_lamp_shape[static_cast<std::size_t>(s)]; };
+    const auto is = [&](LampShape s) {
+      return equal(as_int(lamp[LampColumn::shape]), I(static_cast<std::int32_t>(s)));
+    };
+    F area(1.0f);
+    if (has(LampShape::rectangle))
+      area = select(is(LampShape::rectangle), lamp[LampColumn::length_1] * lamp[LampColumn::length_2], area);
+    const F r = lamp[LampColumn::e1_x];
+    if (has(LampShape::sphere)) area = select(is(LampShape::sphere), F(4 * std::numbers::pi_v<float>) * (r * r), area);
+    return area;
+  }
+
+  struct LampPoint {
+    SurfacePoint<F> on;
+    V weight;         ///< radiance over pdf_a
+    F inverse_pdf_a;  ///< m^2
+    I first_surface, last_surface;
+  };
+
+  template <bool one>
+  LampPoint lamp_point_of(const LampRow<F, one>& lamp, const Point2<F>& uv) const {
+    const F area = area_not_chosen(lamp);
+    return {lamp_point(lamp, uv.u, uv.v), lamp.vector(LampColumn::weight_r) * area,
+            lamp[LampColumn::inverse_choice] * area, as_int(lamp[LampColumn::first_surface]),
+            as_int(lamp[LampColumn::last_surface])};
+  }
+
+  LampPoint choose_point(const ConnectionPoint<F>& p, int rays, int k) const {
+    const Sampler sampler = settings_of<features>(scene_).sampler;
+    const auto place = LatticePlace<F>::of(p.depth + I(1));
+    const Point2<F> uv =
+        random_pair<F>(sampler, p.key, place, static_cast<std::uint32_t>(HitDimension::lamp_u), rays, k);
+    if (features.one_parallelogram || scene_.lamps.rows() == 1)
+      return lamp_point_of(LampRow<F, true>{scene_, I(0)}, uv);
+    const F which = random_number<F>(sampler, p.key, place, static_cast<std::uint32_t>(HitDimension::lamp), rays, k);
+    return lamp_point_of(LampRow<F, false>{scene_, choose_lamp(scene_, which)}, uv);
+  }
+
+  /// The first `count` that wait.
+  [[gnu::noinline]] void connect(int count) {
+    ConnectionPoint<F> p;
+    visit(p, []<class N>(N& value, auto& places) { value = load<N>(places.data()); });
+    const M active = less(lane_numbers<F>(), I(count));
+    const int rays = scene_.settings.shadow_rays;
+    V found = V::all(F(0.0f));
+    for (int k = 0; k < rays; ++k) {
+      const LampPoint lamp = choose_point(p, rays, k);
+      for (const ChainSphere& sphere : scene_.chain_spheres) found = found + over_sphere(p, lamp, sphere, active);
+    }
+    found = found * p.throughput;
+    std::array<float, lane_count<F>> r, g, b;
+    std::array<std::int32_t, lane_count<F>> path;
+    store(found.x, r.data()), store(found.y, g.data()), store(found.z, b.data()), store(p.path, path.data());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      float* sum = sums_.data() + 3 * static_cast<std::ptrdiff_t>(path[i]);
+      sum[0] += r[i];
+      sum[1] += g[i];
+      sum[2] += b[i];
+    }
+  }
+
+  /// Light from the point of the lamp over one sphere, times the BRDF of x over its reflectance.
+  V over_sphere(const ConnectionPoint<F>& p, const LampPoint& lamp, const ChainSphere& sphere, const M& active) const {
+    const V center = broadcast<F>(sphere.center);
+    const V x_way = p.at.point - center, y_way = lamp.on.point - center;
+    const F x2 = dot(x_way, x_way), y2 = dot(y_way, y_way);
+    const F x_inverse = inverse_sqrt(x2), y_inverse = inverse_sqrt(y2);
+    const F radius(sphere.radius);
+    const ChainEnd<F> x = chain_end(x2 * x_inverse, radius), y = chain_end(y2 * y_inverse, radius);
+    const ChainPlane<F> plane = chain_plane(x_way * x_inverse, y_way * y_inverse);
+    const auto of_surface = [&](Column c) { return scene_.surfaces[c][sphere.surface]; };
+    const M once = active & has_depth(p, 1);
+    if (std::bit_cast<std::int32_t>(of_surface(Column::kind)) == kind_mirror) {
+      const V colour = broadcast<F>(of_surface(Column::reflectance_r), of_surface(Column::reflectance_g),
+                                    of_surface(Column::reflectance_b));
+      return along(p, lamp, sphere, once, reflected_chain(plane, x, y), F(1.0f)) * colour;
+    }
+    const F eta(of_surface(Column::eta));
+    const M schlick = F(of_surface(Column::schlick)) > F(0.5f);
+    const auto reflected = [&](F cos) { return fresnel(cos, eta, reciprocal(eta), schlick).reflected; };
+    const SphereChain<F> off = reflected_chain(plane, x, y);
+    V sum = along(p, lamp, sphere, once, off, reflected(off.cos_theta));
+    if (!sphere.refracts) return sum;
+    const M twice = active & has_depth(p, 2);
+    for (const SphereChain<F>& chain : refracted_chains(plane, x, y, eta)) {
+      const F passed = F(1.0f) - reflected(chain.cos_theta);
+      sum = sum + along(p, lamp, sphere, twice, chain, passed * passed);
+    }
+    return sum;
+  }
+
+  /// Where no limit of depth forbids so many surfaces and a lamp.
+  M has_depth(const ConnectionPoint<F>& p, int surfaces) const {
+    const int limit = settings_of<features>(scene_).max_depth;
+    return limit > 0 ? less(p.depth, I(limit - 1 - surfaces)) : M(F(0.0f) < F(1.0f));
+  }
+
+  /// The same along one chain, which a path by chance takes with probability `chosen` once it is on the way.
+  V along(const ConnectionPoint<F>& p, const LampPoint& lamp, const ChainSphere& sphere, const M& active,
+          const SphereChain<F>& chain, F chosen) const {
+    const F cos_x = dot(chain.from_x, p.at.normal), cos_y = dot(chain.from_y, lamp.on.normal);
+    M lit = active & chain.exists & (cos_x > F(0.0f)) & (cos_y > F(0.0f));
+    if (!any(lit)) return V::all(F(0.0f));
+    const I surface(sphere.surface);
+    lit = lit & !occluded<F, features, true>(scene_, {p.at.point, chain.from_x, p.at.surface}, chain.x_length, surface,
+                                             surface);
+    if (!any(lit)) return V::all(F(0.0f));
+    const V exit = fma(chain.y_normal, F(sphere.radius), broadcast<F>(sphere.center));
+    lit = lit & !occluded<F, features>(scene_, {exit, chain.from_y * F(-1.0f), surface}, chain.y_length,
+                                       lamp.first_surface, lamp.last_surface);
+    const F chance = cos_x * F(std::numbers::inv_pi_v<float>) * chosen;
+    const F lamps = F(static_cast<float>(scene_.settings.shadow_rays)) * chain.tube * reciprocal(cos_y);
+    // Lanes without a chain may hold values that are no numbers.
+    const F weight = select(lit, chance * reciprocal(fma(chance, lamp.inverse_pdf_a, lamps)), F(0.0f));
+    if (!surfaces_.has_rough()) return lamp.weight * weight;
+    const V factor = surfaces_.diffuse_factor(p.at, chain.from_x, p.wo, cos_x) * weight;
+    return lamp.weight * select(lit, factor, V::all(F(0.0f)));
+  }
+
+  const CompiledScene& scene_;
+  Surfaces<F, features> surfaces_;
+  std::vector<float> sums_;  ///< by path, three channels
+  std::array<Waiting<float>, 13> numbers_{};
+  std::array<Waiting<std::int32_t>, 3> integers_{};
+  std::array<Waiting<std::uint32_t>, 3> keys_{};
+  int count_ = 0;  ///< that wait
+};
+
+}  // namespace glimt
