@@ -156,6 +156,34 @@ class Connector {
     return lamp_point_of(LampRow<F, false>{scene_, choose_lamp(scene_, which)}, uv);
   }
 
+  /// One of the chains between two points, in proportion to the light it brings if nothing hides it.
+  struct Choice {
+    F left;          ///< of a uniform number in [0, 1), for choices to come
+    F sum;           ///< of all chains' light
+    V colour;        ///< of the chain chosen
+    V from_x, exit;  ///< where it leaves x, and the sphere
+    V to_y;
+    F x_length, y_length;
+    I surface;  ///< of the sphere
+
+    /// Another chain (Chao, "A general purpose unequal probability sampling plan", 1982).
+    void offer(const SphereChain<F>& chain, const M& lit, F light, const V& of_colour, const ChainSphere& sphere) {
+      const F weight = select(lit, light, F(0.0f));
+      sum = sum + weight;
+      const F place = left * sum;
+      const M taken = place < weight;
+      left = select(taken, place, place - weight) * reciprocal(max(select(taken, weight, sum - weight), F(1e-30f)));
+      left = min(left, F(1 - 0x1p-24f));
+      colour = select(taken, of_colour, colour);
+      from_x = select(taken, chain.from_x, from_x);
+      exit = select(taken, fma(chain.y_normal, F(sphere.radius), broadcast<F>(sphere.center)), exit);
+      to_y = select(taken, chain.from_y * F(-1.0f), to_y);
+      x_length = select(taken, chain.x_length, x_length);
+      y_length = select(taken, chain.y_length, y_length);
+      surface = select(taken, I(sphere.surface), surface);
+    }
+  };
+
   /// The first `count` that wait.
   [[gnu::noinline]] void connect(int count) {
     ConnectionPoint<F> p;
@@ -165,7 +193,11 @@ class Connector {
     V found = V::all(F(0.0f));
     for (int k = 0; k < rays; ++k) {
       const LampPoint lamp = choose_point(p, rays, k);
-      for (const ChainSphere& sphere : scene_.chain_spheres) found = found + over_sphere(p, lamp, sphere, active);
+      Choice choice{};
+      choice.left = random_number<F>(settings_of<features>(scene_).sampler, p.key, LatticePlace<F>::of(p.depth + I(1)),
+                                     static_cast<std::uint32_t>(HitDimension::roulette), rays, k);
+      for (const ChainSphere& sphere : scene_.chain_spheres) offer_chains(p, lamp, sphere, active, choice);
+      found = found + arriving(p, lamp, choice);
     }
     found = found * p.throughput;
     std::array<float, lane_count<F>> r, g, b;
@@ -179,8 +211,15 @@ class Connector {
     }
   }
 
-  /// Light from the point of the lamp over one sphere, times the BRDF of x over its reflectance.
-  V over_sphere(const ConnectionPoint<F>& p, const LampPoint& lamp, const ChainSphere& sphere, const M& active) const {
+  /// Where no limit of depth forbids so many surfaces and a lamp.
+  M has_depth(const ConnectionPoint<F>& p, int surfaces) const {
+    const int limit = settings_of<features>(scene_).max_depth;
+    return limit > 0 ? less(p.depth, I(limit - 1 - surfaces)) : M(F(0.0f) < F(1.0f));
+  }
+
+  /// The chains from x to the point of the lamp over one sphere.
+  void offer_chains(const ConnectionPoint<F>& p, const LampPoint& lamp, const ChainSphere& sphere, const M& active,
+                    Choice& choice) const {
     const V center = broadcast<F>(sphere.center);
     const V x_way = p.at.point - center, y_way = lamp.on.point - center;
     const F x2 = dot(x_way, x_way), y2 = dot(y_way, y_way);
@@ -189,52 +228,42 @@ class Connector {
     const ChainEnd<F> x = chain_end(x2 * x_inverse, radius), y = chain_end(y2 * y_inverse, radius);
     const ChainPlane<F> plane = chain_plane(x_way * x_inverse, y_way * y_inverse);
     const auto of_surface = [&](Column c) { return scene_.surfaces[c][sphere.surface]; };
-    const M once = active & has_depth(p, 1);
-    if (std::bit_cast<std::int32_t>(of_surface(Column::kind)) == kind_mirror) {
-      const V colour = broadcast<F>(of_surface(Column::reflectance_r), of_surface(Column::reflectance_g),
-                                    of_surface(Column::reflectance_b));
-      return along(p, lamp, sphere, once, reflected_chain(plane, x, y), F(1.0f)) * colour;
-    }
+    const V colour = broadcast<F>(of_surface(Column::reflectance_r), of_surface(Column::reflectance_g),
+                                  of_surface(Column::reflectance_b));
+    // `chosen`: the probability that a path by chance keeps to the chain once it is on the way.
+    const auto offer = [&](const SphereChain<F>& chain, F chosen, int surfaces) {
+      const F cos_x = dot(chain.from_x, p.at.normal), cos_y = dot(chain.from_y, lamp.on.normal);
+      const M lit = active & has_depth(p, surfaces) & chain.exists & (cos_x > F(0.0f)) & (cos_y > F(0.0f));
+      const F chance = cos_x * F(std::numbers::inv_pi_v<float>) * chosen;
+      const F lamps = F(static_cast<float>(scene_.settings.shadow_rays)) * chain.tube * reciprocal(cos_y);
+      choice.offer(chain, lit, chance * reciprocal(fma(chance, lamp.inverse_pdf_a, lamps)), colour, sphere);
+    };
+    const SphereChain<F> reflected = reflected_chain(plane, x, y);
+    if (std::bit_cast<std::int32_t>(of_surface(Column::kind)) == kind_mirror) return offer(reflected, F(1.0f), 1);
     const F eta(of_surface(Column::eta));
     const M schlick = F(of_surface(Column::schlick)) > F(0.5f);
-    const auto reflected = [&](F cos) { return fresnel(cos, eta, reciprocal(eta), schlick).reflected; };
-    const SphereChain<F> off = reflected_chain(plane, x, y);
-    V sum = along(p, lamp, sphere, once, off, reflected(off.cos_theta));
-    if (!sphere.refracts) return sum;
-    const M twice = active & has_depth(p, 2);
+    const auto share = [&](F cos) { return fresnel(cos, eta, reciprocal(eta), schlick).reflected; };
+    offer(reflected, share(reflected.cos_theta), 1);
+    if (!sphere.refracts) return;
     for (const SphereChain<F>& chain : refracted_chains(plane, x, y, eta)) {
-      const F passed = F(1.0f) - reflected(chain.cos_theta);
-      sum = sum + along(p, lamp, sphere, twice, chain, passed * passed);
+      const F passed = F(1.0f) - share(chain.cos_theta);
+      offer(chain, passed * passed, 2);
     }
-    return sum;
   }
 
-  /// Where no limit of depth forbids so many surfaces and a lamp.
-  M has_depth(const ConnectionPoint<F>& p, int surfaces) const {
-    const int limit = settings_of<features>(scene_).max_depth;
-    return limit > 0 ? less(p.depth, I(limit - 1 - surfaces)) : M(F(0.0f) < F(1.0f));
-  }
-
-  /// The same along one chain, which a path by chance takes with probability `chosen` once it is on the way.
-  V along(const ConnectionPoint<F>& p, const LampPoint& lamp, const ChainSphere& sphere, const M& active,
-          const SphereChain<F>& chain, F chosen) const {
-    const F cos_x = dot(chain.from_x, p.at.normal), cos_y = dot(chain.from_y, lamp.on.normal);
-    M lit = active & chain.exists & (cos_x > F(0.0f)) & (cos_y > F(0.0f));
+  /// Light from the point of the lamp by the chain chosen, times the BRDF of x over its reflectance.
+  V arriving(const ConnectionPoint<F>& p, const LampPoint& lamp, const Choice& choice) const {
+    M lit = choice.sum > F(0.0f);
     if (!any(lit)) return V::all(F(0.0f));
-    const I surface(sphere.surface);
-    lit = lit & !occluded<F, features, true>(scene_, {p.at.point, chain.from_x, p.at.surface}, chain.x_length, surface,
-                                             surface);
-    if (!any(lit)) return V::all(F(0.0f));
-    const V exit = fma(chain.y_normal, F(sphere.radius), broadcast<F>(sphere.center));
-    lit = lit & !occluded<F, features>(scene_, {exit, chain.from_y * F(-1.0f), surface}, chain.y_length,
+    lit = lit & !occluded<F, features, true>(scene_, {p.at.point, choice.from_x, p.at.surface}, choice.x_length,
+                                             choice.surface, choice.surface);
+    lit = lit & !occluded<F, features>(scene_, {choice.exit, choice.to_y, choice.surface}, choice.y_length,
                                        lamp.first_surface, lamp.last_surface);
-    const F chance = cos_x * F(std::numbers::inv_pi_v<float>) * chosen;
-    const F lamps = F(static_cast<float>(scene_.settings.shadow_rays)) * chain.tube * reciprocal(cos_y);
+    V weight = lamp.weight * choice.colour * choice.sum;
     // Lanes without a chain may hold values that are no numbers.
-    const F weight = select(lit, chance * reciprocal(fma(chance, lamp.inverse_pdf_a, lamps)), F(0.0f));
-    if (!surfaces_.has_rough()) return lamp.weight * weight;
-    const V factor = surfaces_.diffuse_factor(p.at, chain.from_x, p.wo, cos_x) * weight;
-    return lamp.weight * select(lit, factor, V::all(F(0.0f)));
+    if (surfaces_.has_rough())
+      weight = weight * surfaces_.diffuse_factor(p.at, choice.from_x, p.wo, dot(choice.from_x, p.at.normal));
+    return select(lit, weight, V::all(F(0.0f)));
   }
 
   const CompiledScene& scene_;

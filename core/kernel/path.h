@@ -153,9 +153,11 @@ class PathTracer {
     const M enters = open & crosses & equal(kind, I(2));
     const M leaves = equal(s.chain.stage, I(chain_inside)) & crosses & equal(at.surface, s.ray.from);
     const M reflects = open & !crosses;
-    const F radius = reciprocal(surfaces_.value(Column::inverse_radius, at));
-    const F distance2 = fma(distance, fma(F(2.0f) * radius, at.cos_o, distance), radius * radius);
-    s.chain.distance2 = select(enters | reflects, distance2, s.chain.distance2);
+    if (any(enters | reflects)) {
+      const F radius = reciprocal(surfaces_.value(Column::inverse_radius, at));
+      const F distance2 = fma(distance, fma(F(2.0f) * radius, at.cos_o, distance), radius * radius);
+      s.chain.distance2 = select(enters | reflects, distance2, s.chain.distance2);
+    }
     I stage = select(diffuse & s.connects, I(chain_open), I(chain_none));
     stage = select(enters, I(chain_inside), stage);
     stage = select(reflects, I(chain_reflected), stage);
@@ -230,9 +232,10 @@ class PathTracer {
     }
     if (light_traced_) emission = emission * select(light & counts, s.lamp_share, F(1.0f));
     if (connects_) {
-      const I row = as_int(surfaces_.value(Column::lamp, at));
-      const M chained = shines & light & less(I(chain_inside), s.chain.stage) & less(I(-1), row);
+      M chained = shines & light & less(I(chain_inside), s.chain.stage);
       if (any(chained)) {
+        const I row = as_int(surfaces_.value(Column::lamp, at));
+        chained = chained & less(I(-1), row);
         const F share = connector_.chance_share(s.chain, s.ray, at, select(chained, row, I(0)));
         emission = emission * select(chained, share, F(1.0f));
       }
