@@ -14,16 +14,6 @@
 /// estimation", 2015). They share with paths that find the same chain by chance, by the balance heuristic (Veach 1997).
 namespace glimt {
 
-/// How far a path has come that left a diffuse surface.
-enum ChainStage : std::int32_t { chain_none, chain_open, chain_inside, chain_reflected, chain_refracted };
-
-template <class F>
-struct ChainState {
-  Int<F> stage;  ///< ChainStage; in the last two the path comes from the sphere and the chain is complete
-  F pdf_w;       ///< with which x chose the direction
-  F distance2;   ///< of x to the sphere's centre
-};
-
 /// A diffuse surface that is connected, as the path there sees it.
 template <class F>
 struct ConnectionPoint {
@@ -45,7 +35,11 @@ class Connector {
   explicit Connector(const CompiledScene& scene) : scene_(scene), surfaces_(scene) {}
 
   /// Room for the sums of so many paths.
-  void begin(int paths) { sums_.assign(3 * static_cast<std::size_t>(paths), 0.0f); }
+  void begin(int paths) {
+    sums_.assign(3 * static_cast<std::size_t>(paths), 0.0f);
+    ConnectionPoint<F> none;
+    visit(none, [](auto&, auto& places) { places.fill({}); });
+  }
 
   /// Connects the lanes in the mask, now or later: diffuse surfaces wait until they fill all lanes.
   void add(ConnectionPoint<F> p, const M& mask) {
@@ -66,38 +60,6 @@ class Connector {
     for (std::size_t i = 0; i < sums_.size(); ++i) rgb[i] += sums_[i];
   }
 
-  /// What a path counts of the lamp it has found at the end of a complete chain.
-  F chance_share(const ChainState<F>& chain, const Ray<F>& ray, const Shading<F>& lamp, const I& lamp_row) const {
-    Shading<F> sphere = lamp;
-    sphere.surface = ray.from;
-    const V center = surfaces_.vector(Column::normal_x, sphere);
-    const F inverse_radius = surfaces_.value(Column::inverse_radius, sphere);
-    const F radius = reciprocal(inverse_radius);
-    const V way = lamp.point - center;
-    const F cos = min(max(dot(ray.origin - center, ray.direction) * inverse_radius, F(0.0f)), F(1.0f));
-    const F b = sqrt(fnma(cos, cos, F(1.0f)));
-    const ChainEnd<F> x = chain_end(sqrt(chain.distance2), radius), y = chain_end(sqrt(dot(way, way)), radius);
-    const M refracted = equal(chain.stage, I(chain_refracted));
-    F tube = reflected_ray(x, y, b, cos).tube;
-    F chosen = F(1.0f);
-    if (scene_.has_glass) {
-      const F eta = surfaces_.value(Column::eta, sphere);
-      const Dielectric<F> interface =
-          fresnel(cos, eta, reciprocal(eta), surfaces_.value(Column::schlick, sphere) > F(0.5f));
-      const SphereLens<F> lens = sphere_lens(eta);
-      const F cos_omega = select(eta > F(1.0f), cos, interface.cos_t);
-      tube = select(refracted, refracted_ray(lens, x, y, b * reciprocal(lens.outside), cos_omega).tube, tube);
-      const F passed = F(1.0f) - interface.reflected;
-      const M glass = equal(as_int(surfaces_.value(Column::kind, sphere)), I(kind_glass));
-      chosen = select(glass, select(refracted, passed * passed, interface.reflected), F(1.0f));
-    }
-    const F inverse_pdf_a = LampRow<F, false>{scene_, lamp_row}[LampColumn::inverse_choice] *
-                            area_not_chosen(LampRow<F, false>{scene_, lamp_row});
-    const F chance = chain.pdf_w * chosen * inverse_pdf_a;
-    const F lamps = F(static_cast<float>(scene_.settings.shadow_rays)) * tube * reciprocal(lamp.cos_o);
-    return select(chance > F(0.0f), chance * reciprocal(chance + lamps), F(0.0f));
-  }
-
  private:
   template <class T>
   using Waiting = std::array<T, 3 * lane_count<F>>;
@@ -115,21 +77,6 @@ class Connector {
     for (U* u : {&p.key.a, &p.key.b, &p.key.index}) f(*u, *keys++);
   }
 
-  /// Lamps that light sampling chooses points of by solid angle have only their choice in inverse_choice.
-  template <bool one>
-  F area_not_chosen(const LampRow<F, one>& lamp) const {
-    const auto has = [&](LampShape s) { return scene_.has_lamp_shape[static_cast<std::size_t>(s)]; };
-    const auto is = [&](LampShape s) {
-      return equal(as_int(lamp[LampColumn::shape]), I(static_cast<std::int32_t>(s)));
-    };
-    F area(1.0f);
-    if (has(LampShape::rectangle))
-      area = select(is(LampShape::rectangle), lamp[LampColumn::length_1] * lamp[LampColumn::length_2], area);
-    const F r = lamp[LampColumn::e1_x];
-    if (has(LampShape::sphere)) area = select(is(LampShape::sphere), F(4 * std::numbers::pi_v<float>) * (r * r), area);
-    return area;
-  }
-
   struct LampPoint {
     SurfacePoint<F> on;
     V weight;         ///< radiance over pdf_a
@@ -139,7 +86,7 @@ class Connector {
 
   template <bool one>
   LampPoint lamp_point_of(const LampRow<F, one>& lamp, const Point2<F>& uv) const {
-    const F area = area_not_chosen(lamp);
+    const F area = area_left_out(lamp);
     return {lamp_point(lamp, uv.u, uv.v), lamp.vector(LampColumn::weight_r) * area,
             lamp[LampColumn::inverse_choice] * area, as_int(lamp[LampColumn::first_surface]),
             as_int(lamp[LampColumn::last_surface])};
@@ -236,7 +183,8 @@ class Connector {
       const M lit = active & has_depth(p, surfaces) & chain.exists & (cos_x > F(0.0f)) & (cos_y > F(0.0f));
       const F chance = cos_x * F(std::numbers::inv_pi_v<float>) * chosen;
       const F lamps = F(static_cast<float>(scene_.settings.shadow_rays)) * chain.tube * reciprocal(cos_y);
-      choice.offer(chain, lit, chance * reciprocal(fma(chance, lamp.inverse_pdf_a, lamps)), colour, sphere);
+      const F light = chance * reciprocal(fma(chance, lamp.inverse_pdf_a, lamps));
+      choice.offer(chain, lit & (light > F(0.0f)), light, colour, sphere);
     };
     const SphereChain<F> reflected = reflected_chain(plane, x, y);
     if (std::bit_cast<std::int32_t>(of_surface(Column::kind)) == kind_mirror) return offer(reflected, F(1.0f), 1);
@@ -269,9 +217,9 @@ class Connector {
   const CompiledScene& scene_;
   Surfaces<F, features> surfaces_;
   std::vector<float> sums_;  ///< by path, three channels
-  std::array<Waiting<float>, 13> numbers_{};
-  std::array<Waiting<std::int32_t>, 3> integers_{};
-  std::array<Waiting<std::uint32_t>, 3> keys_{};
+  std::array<Waiting<float>, 13> numbers_;
+  std::array<Waiting<std::int32_t>, 3> integers_;
+  std::array<Waiting<std::uint32_t>, 3> keys_;
   int count_ = 0;  ///< that wait
 };
 

@@ -4,6 +4,7 @@
 
 #include "kernel/camera.h"
 #include "kernel/connect.h"
+#include "kernel/found_chain.h"
 #include "kernel/pinhole.h"
 #include "kernel/shading.h"
 #include "kernel/trace.h"
@@ -21,7 +22,7 @@ struct PathState {
   F lamp_share;        ///< of the radiance of a lamp that is hit next: what counts, where MIS does not say so
   F caustic_share;     ///< the same for lamps that are hit from a mirror or glass
   F pdf_w;             ///< with which a diffuse surface chose the direction, if it was the last; else 0
-  ChainState<F> chain;
+  FoundChain<F> chain;
   Mask<F> connects;  ///< diffuse surfaces are connected to lamps over spheres: the first surface was specular
   PathKey<F> key;    ///< its dimension 0 is the first of the next hit
   Int<F> depth;      ///< surfaces hit before
@@ -134,7 +135,7 @@ class PathTracer {
       s.throughput = s.throughput * select(enters, scatter.inverse_eta2, F(1.0f));
       s.ior2 = s.ior2 * select(enters, scatter.eta2, F(1.0f));
     }
-    if (connects_) follow_chain(s, at, hit.t, diffuse, enters);
+    if (connects_) s.chain.follow(surfaces_, s.ray, at, hit.t, diffuse & s.connects, enters);
     share_caustics(s, at, hit.t, diffuse);
     s.ray = {at.point, direction, at.surface};
     if (mis_) s.pdf_w = select(diffuse, s.pdf_w, F(0.0f));
@@ -144,24 +145,6 @@ class PathTracer {
     s.key = skip_dimensions<F>(s.key, hit_block_);
     s.depth = s.depth + I(1);
     return ended;
-  }
-
-  /// How much of a chain over a sphere the path has taken. `crosses`: it goes to the other side.
-  void follow_chain(PathState<F>& s, const Shading<F>& at, F distance, const M& diffuse, const M& crosses) const {
-    const I kind = as_int(surfaces_.value(Column::chain, at));
-    const M open = equal(s.chain.stage, I(chain_open)) & at.front & less(I(0), kind);
-    const M enters = open & crosses & equal(kind, I(2));
-    const M leaves = equal(s.chain.stage, I(chain_inside)) & crosses & equal(at.surface, s.ray.from);
-    const M reflects = open & !crosses;
-    if (any(enters | reflects)) {
-      const F radius = reciprocal(surfaces_.value(Column::inverse_radius, at));
-      const F distance2 = fma(distance, fma(F(2.0f) * radius, at.cos_o, distance), radius * radius);
-      s.chain.distance2 = select(enters | reflects, distance2, s.chain.distance2);
-    }
-    I stage = select(diffuse & s.connects, I(chain_open), I(chain_none));
-    stage = select(enters, I(chain_inside), stage);
-    stage = select(reflects, I(chain_reflected), stage);
-    s.chain.stage = select(leaves, I(chain_refracted), stage);
   }
 
   /// What counts of the lamps that the path finds by chance from here on.
@@ -232,11 +215,11 @@ class PathTracer {
     }
     if (light_traced_) emission = emission * select(light & counts, s.lamp_share, F(1.0f));
     if (connects_) {
-      M chained = shines & light & less(I(chain_inside), s.chain.stage);
+      M chained = shines & light & s.chain.complete();
       if (any(chained)) {
         const I row = as_int(surfaces_.value(Column::lamp, at));
         chained = chained & less(I(-1), row);
-        const F share = connector_.chance_share(s.chain, s.ray, at, select(chained, row, I(0)));
+        const F share = chance_share(scene_, surfaces_, s.chain, s.ray, at, select(chained, row, I(0)));
         emission = emission * select(chained, share, F(1.0f));
       }
     }

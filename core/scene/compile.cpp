@@ -138,12 +138,12 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   const bool glass = material.type == MaterialType::glass;
   const dvec3 c = sphere.center - l.origin;
   const int surface = l.add_surface({&material, c, 1 / sphere.radius, glass ? relative_ior(l.scene, sphere) : 1});
-  l.surface_of_sphere[&sphere] = surface;
   const auto f = to_floats(c);
   const bool around_eye = length(l.scene.camera.eye - sphere.center) < sphere.radius;
   auto& list = glass ? l.out.glass_spheres : around_eye ? l.out.shells : l.out.spheres;
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   add_target(l, material, {c, sphere.radius}, surface, surface);
+  if (glass || (material.type == MaterialType::mirror && !around_eye)) l.specular_spheres.push_back({&sphere, surface});
   if (material.type == MaterialType::light && !around_eye)
     l.lamps.push_back(
         {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
@@ -215,6 +215,8 @@ void describe(Lowering& l) {
   count(out.shells.size(), "sphere around the camera", "spheres around the camera");
   count(out.glass_spheres.size(), "glass sphere", "glass spheres");
   count(out.polygons.size(), "polygon", "polygons");
+  count(out.chain_spheres.size(), "sphere that caustics are connected over",
+        "spheres that caustics are connected over");
   count(static_cast<std::size_t>(out.lamps.rows()), "piece of a lamp", "pieces of lamps");
   auto feature = [&](bool used, const char* what) { (used ? out.compiled_in : out.left_out).emplace_back(what); };
   feature(out.has_mirror, "mirror reflection");

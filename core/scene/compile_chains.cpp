@@ -10,7 +10,8 @@ using glm::dvec3;
 
 namespace {
 
-constexpr std::size_t most_spheres = 8;  ///< each costs every connection some time
+/// Each costs every connection some time. Over the smaller ones caustics are found by chance.
+constexpr std::size_t most_spheres = 8;
 
 /// Whether something lies inside a ball or cuts it; what only touches it does not.
 bool is_empty(const Lowering& l, const Sphere& ball) {
@@ -46,18 +47,17 @@ void lower_chains(Lowering& l) {
   if (s.sphere_connections == SphereConnections::off || s.light_sampling == LightSampling::none ||
       s.caustics == Caustics::off || l.out.lamps.rows() == 0)
     return;
-  for (const Sphere* sphere : l.reach.spheres) {
+  std::vector<ChainSphere>& chains = l.out.chain_spheres;
+  for (const auto& [sphere, surface] : l.specular_spheres) {
     const Material& m = l.material(sphere->material);
-    const bool glass = m.type == MaterialType::glass, mirror = m.type == MaterialType::mirror;
-    const bool around_eye = length(l.scene.camera.eye - sphere->center) < sphere->radius;
-    if (!(glass || (mirror && !around_eye)) || !is_in_room(l, *sphere)) continue;
-    const int surface = l.surface_of_sphere[sphere];
-    l.out.chain_spheres.push_back({to_floats(sphere->center - l.origin), static_cast<float>(sphere->radius), surface,
-                                   glass && is_empty(l, *sphere)});
+    const bool glass = m.type == MaterialType::glass;
+    if (is_in_room(l, *sphere) && (glass || m.reflectance != dvec3{0}))
+      chains.push_back({to_floats(sphere->center - l.origin), static_cast<float>(sphere->radius), surface,
+                        glass && is_empty(l, *sphere)});
   }
-  std::ranges::stable_sort(l.out.chain_spheres, std::ranges::greater{}, &ChainSphere::radius);
-  if (l.out.chain_spheres.size() > most_spheres) l.out.chain_spheres.resize(most_spheres);
-  for (const ChainSphere& c : l.out.chain_spheres)
+  std::ranges::stable_sort(chains, std::ranges::greater{}, &ChainSphere::radius);
+  chains.resize(std::min(chains.size(), most_spheres));
+  for (const ChainSphere& c : chains)
     l.out.surfaces[Column::chain][c.surface] = std::bit_cast<float>(c.refracts ? 2 : 1);
 }
 

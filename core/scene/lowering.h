@@ -1,7 +1,5 @@
 #pragma once
 
-#include <map>
-
 #include "scene/compiled_scene.h"
 #include "scene/reach.h"
 
@@ -36,6 +34,12 @@ struct Target {
   int first_surface, last_surface;
 };
 
+/// A mirror or glass sphere that is met from outside.
+struct SpecularSphere {
+  const Sphere* sphere;
+  int surface;
+};
+
 struct Lowering {
   const Scene& scene;
   Reach reach;
@@ -43,7 +47,7 @@ struct Lowering {
   std::vector<Surface> surfaces;
   std::vector<LampPiece> lamps;
   std::vector<Target> targets;
-  std::map<const Sphere*, int> surface_of_sphere;
+  std::vector<SpecularSphere> specular_spheres;
   CompiledScene out;
 
   const Material& material(const std::string& name) const {
