@@ -115,11 +115,11 @@ class Connector {
 
     /// Another chain (Chao, "A general purpose unequal probability sampling plan", 1982).
     void offer(const SphereChain<F>& chain, const M& lit, F light, const V& of_colour, const ChainSphere& sphere) {
-      const F weight = select(lit, light, F(0.0f));
-      sum = sum + weight;
+      const F before = sum;
+      sum = sum + select(lit, light, F(0.0f));
       const F place = left * sum;
-      const M taken = place < weight;
-      left = select(taken, place, place - weight) * reciprocal(max(select(taken, weight, sum - weight), F(1e-30f)));
+      const M taken = lit & (place < light), kept = lit & !taken;
+      left = select(taken, place * reciprocal(light), select(kept, (place - light) * reciprocal(before), left));
       left = min(left, F(1 - 0x1p-24f));
       colour = select(taken, of_colour, colour);
       from_x = select(taken, chain.from_x, from_x);

@@ -24,6 +24,15 @@ Scene ball_on_floor(double edge) {
   return scene;
 }
 
+/// The same, seen in a mirror alone.
+Scene ball_in_mirror(double edge) {
+  Scene scene = ball_on_floor(edge);
+  scene.materials.push_back(mirror("mirror", dvec3{1}));
+  scene.polygons[2].material = "mirror";
+  scene.camera = {{0, -0.2, -1}, {0, -0.7, -2}, {0, 1, 0}, 30};
+  return scene;
+}
+
 /// Variance of a sample of a pixel over the square of the picture's mean, as the halves of the film tell it; and that
 /// mean.
 struct Noise {
@@ -90,6 +99,38 @@ TEST(CausticsOfALamp, AreNoWorseThanByChanceCloseToTheEye) {
     const Noise chance = noise(scene, 4 * effort);
     EXPECT_LT(shared.variance, 2 * chance.variance) << height << " m";
     EXPECT_GT(likelihood(shared.mean, chance.mean), sidak(1e-4, 4)) << height << " m";
+  }
+}
+
+// Failure: as above. Connections meet every lamp. Next to the edge of a caustic (a fold) light is concentrated without
+// bound, as 1 / sqrt(distance): the variance of connections would grow with the logarithm of the lamp's size.
+TEST(CausticsInAMirror, HaveHardlyMoreNoiseHoweverSmallTheLampIs) {
+  const Noise large = noise(ball_in_mirror(1));
+  for (const double edge : {0.3, 0.1, 0.01, 1e-3}) {
+    const Noise small = noise(ball_in_mirror(edge));
+    std::cout << edge << " " << small.mean.mean / large.mean.mean << " +- " << small.mean.error / large.mean.mean
+              << " var " << small.variance << " " << large.variance << "\n";
+  }
+  Scene scene = ball_in_mirror(1e-3);
+  scene.render.sphere_connections = SphereConnections::off;
+  EXPECT_LT(noise(scene).mean.mean, 0.3 * large.mean.mean) << "chance loses the caustic";
+}
+
+// Failure: connections to points that nearly touch the sphere lose their digits, and the tubes of rays there are next
+// to nothing. Both estimators go on agreeing (probability of a false alarm 1e-4), with bounded noise.
+TEST(CausticsInAMirror, AreRightWhereTheBallTouchesTheFloor) {
+  const Noise away = noise(ball_in_mirror(1));
+  for (const double gap : {1e-2, 1e-4, 1e-6, 0.0, -1e-3}) {
+    Scene scene = ball_in_mirror(1);
+    scene.spheres[0].center.y = -0.6 + gap;
+    const Noise connected = noise(scene, 4 * effort);
+    scene.render.sphere_connections = SphereConnections::off;
+    scene.render.seed = 1000;
+    const Noise chance = noise(scene, 16 * effort);
+    EXPECT_GT(likelihood(connected.mean, chance.mean), sidak(1e-4, 5))
+        << gap << " m: " << connected.mean.mean << " +- " << connected.mean.error << " against " << chance.mean.mean
+        << " +- " << chance.mean.error;
+    std::cout << gap << " var " << connected.variance << " " << chance.variance << " away " << away.variance << "\n";
   }
 }
 
