@@ -120,7 +120,7 @@ namespace {
 class SphereConnected : public testing::TestWithParam<Scene> {};
 
 TEST_P(SphereConnected, AndChanceMakeOnePicture) {
-  const int samples = 12 * effort;
+  const int samples = 8 * effort;
   int first_seed = 0;
   const auto pictures = [&](Settings settings, bool connected) {
     Series series;

@@ -380,7 +380,7 @@ TEST(Compile, ConnectsByRefractionOnlyThroughEmptyGlass) {
   for (const bool inside : {false, true}) {
     Scene other = scene;
     const double x = inside ? 0.4 : 0.51;
-    other.polygons.push_back({"slice", "white", {{x, -1, -1}, {x, 1, -1}, {x, 1, 1}, {x, -1, 1}}});
+    other.polygons.push_back({"slice", "white", {{x, -0.9, -0.9}, {x, 0.9, -0.9}, {x, 0.9, 0.9}, {x, -0.9, 0.9}}});
     EXPECT_EQ(connected_over(other), std::vector{inside ? 1 : 2});
     other = scene;
     other.meshes = {tetrahedron("block", "white", {inside ? 0.2 : 0.8, 0, 0}, 0.1)};
