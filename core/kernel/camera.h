@@ -38,6 +38,7 @@ class PathSource {
  public:
   virtual ~PathSource() = default;
   virtual Vec3<F> origin() const = 0;        ///< of all first rays, compiled space
+  virtual int paths() const = 0;             ///< all of them; numbered from 0
   virtual bool exhausted() const = 0;        ///< every path has been put into a queue
   virtual void refill(PathQueue<F>& q) = 0;  ///< moves what is left in the queue to its front and fills the rest
 };
@@ -54,6 +55,7 @@ class CameraRays final : public PathSource<F> {
         sample_(static_cast<std::int32_t>(block.first_sample)) {}
 
   Vec3<F> origin() const override { return broadcast<F>(scene_.camera.eye); }
+  int paths() const override { return block_.paths(); }
   bool exhausted() const override { return next_path_ >= block_.paths(); }
 
   void refill(PathQueue<F>& q) override {
@@ -138,6 +140,7 @@ class GivenRay final : public PathSource<F> {
     auto component = [&](std::size_t k) { return F(static_cast<float>(path_.origin[k] - scene_.origin[k])); };
     return {component(0), component(1), component(2)};
   }
+  int paths() const override { return 1; }
   bool exhausted() const override { return used_; }
 
   void refill(PathQueue<F>& q) override {

@@ -250,7 +250,7 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
   }
   for (const SphereShape& sphere : scene.glass_spheres) {
     const F t = glass_sphere_t(sphere, ray);
-    hidden = hidden | ((t > F(0.0f)) & (t < distance));
+    hide((t > F(0.0f)) & (t < distance), sphere.surface);
   }
   if (!features.rare) return hidden;
   for (const TriangleShape& triangle : scene.triangles) {

@@ -98,6 +98,24 @@ SurfacePoint<F> lamp_point(const LampRow<F, one>& lamp, F u, F v) {
   return {select(sphere, round.point, flat.point), select(sphere, round.normal, flat.normal)};
 }
 
+/// Over inverse_choice, the 1 / pdf_a of these points: lamps that light sampling chooses points of by solid angle have
+/// only their choice in inverse_choice.
+template <class F, bool one>
+F area_left_out(const LampRow<F, one>& lamp) {
+  const auto has = [&](LampShape s) { return lamp.scene.has_lamp_shape[static_cast<std::size_t>(s)]; };
+  const auto is = [&](LampShape s) {
+    return equal(as_int(lamp[LampColumn::shape]), Int<F>(static_cast<std::int32_t>(s)));
+  };
+  F area(1.0f);
+  if (has(LampShape::rectangle))
+    area = select(is(LampShape::rectangle), lamp[LampColumn::length_1] * lamp[LampColumn::length_2], area);
+  if (has(LampShape::sphere)) {
+    const F radius = lamp[LampColumn::e1_x];
+    area = select(is(LampShape::sphere), F(4 * std::numbers::pi_v<float>) * (radius * radius), area);
+  }
+  return area;
+}
+
 /// How `from` sees a point that is uniform by area (the report's eq. 15): pdf_w = distance^2 / (area cos).
 template <class F, bool one>
 LampSample<F> see_point(const LampRow<F, one>& lamp, const Vec3<F>& from, const SurfacePoint<F>& at) {

@@ -3,6 +3,8 @@
 #include <bit>
 
 #include "kernel/camera.h"
+#include "kernel/connect.h"
+#include "kernel/found_chain.h"
 #include "kernel/pinhole.h"
 #include "kernel/shading.h"
 #include "kernel/trace.h"
@@ -20,9 +22,11 @@ struct PathState {
   F lamp_share;        ///< of the radiance of a lamp that is hit next: what counts, where MIS does not say so
   F caustic_share;     ///< the same for lamps that are hit from a mirror or glass
   F pdf_w;             ///< with which a diffuse surface chose the direction, if it was the last; else 0
-  PathKey<F> key;      ///< its dimension 0 is the first of the next hit
-  Int<F> depth;        ///< surfaces hit before
-  Int<F> path;         ///< number in the block, or -1 for a lane without work
+  FoundChain<F> chain;
+  Mask<F> connects;  ///< diffuse surfaces are connected to lamps over spheres: the first surface was specular
+  PathKey<F> key;    ///< its dimension 0 is the first of the next hit
+  Int<F> depth;      ///< surfaces hit before
+  Int<F> path;       ///< number in the block, or -1 for a lane without work
 };
 
 template <class F, Features features>
@@ -42,7 +46,9 @@ class PathTracer {
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
         next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0 &&
                     choices().caustics != Caustics::only),
-        mis_(next_event_ && choices().mis == Mis::on) {}
+        mis_(next_event_ && choices().mis == Mis::on),
+        connects_(!scene.chain_spheres.empty()),
+        connector_(scene) {}
 
   /// Traces all paths of the source and writes each one's radiance to rgb[3 * its number].
   void run(PathSource<F>& source) {
@@ -51,17 +57,22 @@ class PathTracer {
     s.path = I(-1);
     s.ior2 = F(1.0f);
     s.lamp_share = s.caustic_share = F(0.0f);
+    s.connects = F(1.0f) < F(0.0f);
+    s.chain = {I(chain_none), F(0.0f), F(0.0f)};
+    if (connects_) connector_.begin(source.paths());
     const V origin = source.origin();
     s.ray = {origin, {F(0.0f), F(0.0f), F(1.0f)}, I(-1)};
     for (;;) {
       const M idle = less(s.path, I(0));
       if (any(idle)) {
         begin_paths(source, origin, queue, s, idle);
-        if (!any(less(I(-1), s.path))) return write_out();
+        if (!any(less(I(-1), s.path))) break;
       }
       const M ended = step(s) & less(I(-1), s.path);
       finish(s, ended);
     }
+    write_out();
+    if (connects_) connector_.finish(rgb_);
   }
 
  private:
@@ -88,11 +99,15 @@ class PathTracer {
     s.lamp_share = select(idle, share, s.lamp_share);
     s.caustic_share = select(idle, share, s.caustic_share);
     s.depth = select(idle, I(0), s.depth);
+    if (connects_) {
+      s.chain.stage = select(idle, I(chain_none), s.chain.stage);
+      s.connects = s.connects | idle;
+    }
     q.next += wanted;
   }
 
   /// One surface for every lane; returns the lanes whose paths end there.
-  M step(PathState<F>& s) const {
+  M step(PathState<F>& s) {
     const Hit<F> hit = closest_hit<F, features>(scene_, s.ray);
     const M missed = !(hit.t < F(std::numeric_limits<float>::infinity()));
     const Shading<F> at = surfaces_.shade(s.ray, hit);
@@ -105,6 +120,7 @@ class PathTracer {
     s.throughput = s.throughput * surfaces_.reflectance(at);
     V direction = s.ray.direction;
     const Point2<F> uv = pair(s, HitDimension::direction_u);
+    M enters = F(1.0f) < F(0.0f);
     if (any(diffuse)) scatter_diffuse(s, at, diffuse, uv, direction);
     if (scene_.has_mirror) {
       const M mirror = equal(at.kind, I(kind_mirror));
@@ -114,10 +130,11 @@ class PathTracer {
       const GlassScatter<F> scatter = surfaces_.scatter_glass(s.ray.direction, at, uv.u);
       direction = select(glass, scatter.direction, direction);
       // Radiance in the medium behind is eta^2 times as large as on this side, so this much of it arrives.
-      const M enters = glass & scatter.enters;
+      enters = glass & scatter.enters;
       s.throughput = s.throughput * select(enters, scatter.inverse_eta2, F(1.0f));
       s.ior2 = s.ior2 * select(enters, scatter.eta2, F(1.0f));
     }
+    if (connects_) s.chain.follow(surfaces_, s.ray, at, hit.t, diffuse & s.connects, enters);
     share_caustics(s, at, hit.t, diffuse);
     s.ray = {at.point, direction, at.surface};
     if (mis_) s.pdf_w = select(diffuse, s.pdf_w, F(0.0f));
@@ -196,12 +213,20 @@ class PathTracer {
       emission = emission * select(shared, weight, F(1.0f));
     }
     if (light_traced_) emission = emission * select(light & counts, s.lamp_share, F(1.0f));
+    if (connects_) {
+      M chained = shines & light & s.chain.complete();
+      if (any(chained)) {
+        const I row = as_int(surfaces_.value(Column::lamp, at));
+        chained = chained & less(I(-1), row);
+        const F share = chance_share(scene_, surfaces_, s.chain, s.ray, at, select(chained, row, I(0)));
+        emission = emission * select(chained, share, F(1.0f));
+      }
+    }
     s.radiance = fma(s.throughput, emission, s.radiance);
   }
 
   /// Next-event estimation, then a direction in proportion to the cosine. The throughput has the reflectance already.
-  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, const Point2<F>& uv,
-                       V& direction) const {
+  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, const Point2<F>& uv, V& direction) {
     const V wo = s.ray.direction * F(-1.0f);
     if (next_event_) {
       const M asks = choices().max_depth > 0 ? diffuse & may_go_on(s) : diffuse;
@@ -209,13 +234,21 @@ class PathTracer {
     }
     const V wi = cosine_hemisphere(at.normal, uv.u, uv.v);
     const bool rough = surfaces_.has_rough();
-    if (rough || mis_) {
+    if (rough || mis_ || connects_) {
       const F cos_i = dot(wi, at.normal);
       s.pdf_w = cos_i * F(std::numbers::inv_pi_v<float>);
+      if (connects_) connect(s, at, diffuse, wo);
       if (rough)
         s.throughput = s.throughput * select(diffuse, surfaces_.diffuse_factor(at, wi, wo, cos_i), V::all(F(1.0f)));
     }
     direction = select(diffuse, wi, direction);
+  }
+
+  void connect(PathState<F>& s, const Shading<F>& at, const M& diffuse, const V& wo) {
+    s.connects = s.connects & !(diffuse & equal(s.depth, I(0)));
+    s.chain.pdf_w = select(diffuse, s.pdf_w, s.chain.pdf_w);
+    const M mask = diffuse & s.connects & less(I(-1), s.path);
+    if (any(mask)) connector_.add({at, wo, s.throughput, s.key, s.depth, s.path}, mask);
   }
 
   /// Light that comes straight from the lamps, times the BRDF over the reflectance.
@@ -286,6 +319,8 @@ class PathTracer {
   std::uint32_t hit_block_;  ///< dimensions of a hit
   bool next_event_;
   bool mis_;
+  bool connects_;
+  Connector<F, features> connector_;
 
   int done_ = 0;
   DoneArray<float> done_r_, done_g_, done_b_;

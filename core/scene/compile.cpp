@@ -143,6 +143,7 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   auto& list = glass ? l.out.glass_spheres : around_eye ? l.out.shells : l.out.spheres;
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   add_target(l, material, {c, sphere.radius}, surface, surface);
+  if (glass || (material.type == MaterialType::mirror && !around_eye)) l.specular_spheres.push_back({&sphere, surface});
   if (material.type == MaterialType::light && !around_eye)
     l.lamps.push_back(
         {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
@@ -214,6 +215,8 @@ void describe(Lowering& l) {
   count(out.shells.size(), "sphere around the camera", "spheres around the camera");
   count(out.glass_spheres.size(), "glass sphere", "glass spheres");
   count(out.polygons.size(), "polygon", "polygons");
+  count(out.chain_spheres.size(), "sphere that caustics are connected over",
+        "spheres that caustics are connected over");
   count(static_cast<std::size_t>(out.lamps.rows()), "piece of a lamp", "pieces of lamps");
   auto feature = [&](bool used, const char* what) { (used ? out.compiled_in : out.left_out).emplace_back(what); };
   feature(out.has_mirror, "mirror reflection");
@@ -228,7 +231,7 @@ void describe(Lowering& l) {
 CompiledScene compile(const Scene& scene) {
   if (const std::vector<Problem> problems = validate(scene); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
-  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}};
+  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;
@@ -245,6 +248,7 @@ CompiledScene compile(const Scene& scene) {
   fill_surfaces(l);
   lower_lamps(l);
   lower_aims(l);
+  lower_chains(l);
   describe(l);
   warn(l);
   return std::move(l.out);

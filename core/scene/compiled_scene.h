@@ -48,6 +48,7 @@ enum class Column {
   eta,             ///< glass: index behind the surface over index in front of it
   schlick,         ///< 1 where Schlick's Fresnel is asked for
   lamp,            ///< first row of the lamp table that is a piece of this light, as int32; -1: none is
+  chain,           ///< of a sphere that connections pass over, as int32: 1 by reflection, 2 by refraction too; else 0
   target,          ///< number of the mirror or glass that light paths may be aimed at, as int32; -1: none
   count
 };
@@ -181,6 +182,14 @@ struct PinholeCamera {
   float pixel_area;              ///< of a pixel on the plane at distance 1, m^2
 };
 
+/// A sphere over which diffuse surfaces are connected to lamps; see kernel/connect.h.
+struct ChainSphere {
+  std::array<float, 3> center;
+  float radius;
+  std::int32_t surface;
+  bool refracts;  ///< glass with nothing inside
+};
+
 struct CompiledScene {
   Settings settings;
   int width = 0, height = 0;
@@ -203,6 +212,7 @@ struct CompiledScene {
   int light_paths = 0;         ///< of every pass, from lamps to mirrors and glass; 0: caustics are found by chance
   float light_path_noise = 0;  ///< see kernel/pinhole.h
   Table<AimColumn> aims;
+  std::vector<ChainSphere> chain_spheres;
   bool has_mirror = false, has_glass = false, has_oren_nayar = false, has_eon = false;
   bool has_glow = false;          ///< reflecting surfaces with emission
   bool room_hides_lamps = false;  ///< a lamp is partly outside the room, so shadow rays test the room too

@@ -65,6 +65,8 @@ const std::array<Field<Settings>, 14> settings_table{{
      choice<&Settings::caustics>(caustics_names)},
     {"light_paths", "paths from lamps to mirrors and glass for each path from the camera; 0: caustics by chance alone",
      &Settings::light_paths, 0, 16},
+    {"sphere_connections", "caustics seen in mirrors and through glass: connections to lamps over single spheres",
+     choice<&Settings::sphere_connections>(switch_names)},
     {"max_depth", "surfaces that a path may meet, its lamp included; 0 for no limit", &Settings::max_depth, 0, 1000},
 }};
 
@@ -180,6 +182,7 @@ void set_method(Settings& settings, Method method) {
   settings.method = method;
   if (method == Method::path) return;
   settings.light_paths = 0;
+  settings.sphere_connections = SphereConnections::off;
   if (method == Method::naive) settings.light_sampling = LightSampling::none;
   if (method != Method::report) return;
   settings.light_sampling = LightSampling::area;

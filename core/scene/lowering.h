@@ -34,6 +34,12 @@ struct Target {
   int first_surface, last_surface;
 };
 
+/// A mirror or glass sphere that is met from outside.
+struct SpecularSphere {
+  const Sphere* sphere;
+  int surface;
+};
+
 struct Lowering {
   const Scene& scene;
   Reach reach;
@@ -41,6 +47,7 @@ struct Lowering {
   std::vector<Surface> surfaces;
   std::vector<LampPiece> lamps;
   std::vector<Target> targets;
+  std::vector<SpecularSphere> specular_spheres;
   CompiledScene out;
 
   const Material& material(const std::string& name) const {
@@ -87,6 +94,11 @@ void add_target(Lowering& l, const Material& material, const BoundingSphere& bou
                 int last_surface);
 /// The table that light paths begin from, and how many there are; after lower_lamps().
 void lower_aims(Lowering& l);
+
+double distance_to_polygon(const glm::dvec3& p, const std::vector<glm::dvec3>& polygon);
+
+/// The spheres over which diffuse surfaces are connected to lamps; after lower_lamps().
+void lower_chains(Lowering& l);
 
 /// Warnings for scenes in which the chosen estimators cannot hold.
 void warn(Lowering& l);

@@ -43,6 +43,9 @@ enum class Sampler {
 /// Light that reaches a diffuse surface by way of mirrors or glass.
 enum class Caustics { off, on, only };
 
+/// Whether caustics that are seen in mirrors and through glass are connected to lamps over single spheres.
+enum class SphereConnections { off, on };
+
 /// Everything that says how a scene is rendered, and nothing of what is in it. Declared for files, command line and
 /// window in fields.cpp.
 struct Settings {
@@ -59,7 +62,8 @@ struct Settings {
   Sampler sampler = Sampler::lattice;
   Caustics caustics = Caustics::on;
   double light_paths = 0.05;  ///< from lamps to mirrors and glass, for each path from the camera; 0: no light tracing
-  int max_depth = 0;          ///< surfaces that a path may meet, its lamp included; 0: no limit
+  SphereConnections sphere_connections = SphereConnections::on;
+  int max_depth = 0;  ///< surfaces that a path may meet, its lamp included; 0: no limit
 
   bool operator==(const Settings&) const = default;
 };

@@ -86,6 +86,8 @@ TEST(Fields, ChoicesSetTheValueTheyName) {
   EXPECT_EQ(settings.caustics, Caustics::off);
   named(settings_fields(), "caustics", "only", settings);
   EXPECT_EQ(settings.caustics, Caustics::only);
+  named(settings_fields(), "sphere_connections", "off", settings);
+  EXPECT_EQ(settings.sphere_connections, SphereConnections::off);
   named(settings_fields(), "roulette", "constant", settings);
   EXPECT_EQ(settings.roulette, Roulette::constant);
   named(settings_fields(), "roulette", "throughput", settings);
@@ -115,7 +117,8 @@ TEST(Fields, MethodsSetTheirParts) {
                                 .roulette = Roulette::constant,
                                 .sampler = Sampler::centres,
                                 .caustics = Caustics::off,
-                                .light_paths = 0}));
+                                .light_paths = 0,
+                                .sphere_connections = SphereConnections::off}));
   set_method(settings, Method::path);
   EXPECT_EQ(settings, (Settings{.spp = 7, .target_error = 0.5, .shadow_rays = 3, .seed = 9}));
 }
