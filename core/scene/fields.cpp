@@ -35,7 +35,7 @@ constexpr auto choice(std::span<const std::string_view> names) {
 constexpr double max_radiance = 1e9;
 
 // The method comes before what it sets, so that what a file or command line says beside it holds.
-const std::array<Field<Settings>, 14> settings_table{{
+const std::array<Field<Settings>, 15> settings_table{{
     {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
     {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
      &Settings::target_error, 0, 1e6},
