@@ -53,6 +53,11 @@ std::string number(double value) {
   return text;
 }
 
+/// As a field of CSV: with a comma in it, in quotes.
+std::string csv_text(const std::string& text) {
+  return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
+}
+
 }  // namespace
 
 std::vector<Measurement> measure(std::span<Variant> variants, const Plan& plan, const Image* reference,
@@ -136,7 +141,7 @@ Chart error_chart(std::span<const Variant> variants, std::span<const Measurement
 std::string measurements_csv(std::span<const Variant> variants, std::span<const Measurement> measurements) {
   std::string csv = "method,seed,spp,seconds,relmse,relmse999,relmse_estimate\n";
   for (const auto& m : measurements) {
-    csv += variants[m.variant].name + "," + std::to_string(m.seed) + "," + std::to_string(m.spp) + "," +
+    csv += csv_text(variants[m.variant].name) + "," + std::to_string(m.seed) + "," + std::to_string(m.spp) + "," +
            number(m.seconds) + ",";
     csv += m.error ? number(m.error->relmse) + "," + number(m.error->relmse999) + "," : ",,";
     csv += (std::isfinite(m.relmse_estimate) ? number(m.relmse_estimate) : "") + "\n";

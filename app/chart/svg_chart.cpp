@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "chart/ticks.h"
+
 namespace glimt {
 namespace {
 
@@ -112,19 +114,10 @@ std::string power_label(int exponent, int digit) {
          "</tspan>";
 }
 
-std::vector<Tick> logarithmic_ticks(const Scale& scale) {
+std::vector<Tick> logarithmic_ticks_of(const Scale& scale) {
   std::vector<Tick> ticks;
-  const double decades = scale.last - scale.first;
-  const int every = std::max(1, static_cast<int>(std::ceil(decades / 10)));
-  for (int exponent = static_cast<int>(std::floor(scale.first)); exponent <= scale.last; ++exponent)
-    for (int digit = 1; digit < 10; ++digit) {
-      const double value = digit * std::pow(10, exponent);
-      if (std::log10(value) < scale.first || std::log10(value) > scale.last) continue;
-      const bool whole = digit == 1 && exponent % every == 0;
-      const bool between = decades < 2 && (digit == 2 || digit == 5);
-      if (whole || between || every == 1)
-        ticks.push_back({value, whole || between ? power_label(exponent, digit) : ""});
-    }
+  for (const LogTick& tick : logarithmic_ticks(scale.first, scale.last))
+    ticks.push_back({tick.value, tick.labelled ? power_label(tick.exponent, tick.digit) : ""});
   return ticks;
 }
 
@@ -140,7 +133,7 @@ std::vector<Tick> linear_ticks(const Scale& scale) {
 }
 
 std::vector<Tick> ticks_of(const Scale& scale) {
-  return scale.logarithmic ? logarithmic_ticks(scale) : linear_ticks(scale);
+  return scale.logarithmic ? logarithmic_ticks_of(scale) : linear_ticks(scale);
 }
 
 class Drawing {

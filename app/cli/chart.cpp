@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <limits>
 
+#include "chart/reference.h"
 #include "chart/runs.h"
 #include "cli/ablate.h"
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
 #include "cli/render_options.h"
 #include "film/file_bytes.h"
-#include "film/image_file.h"
 #include "scene/scene_file.h"
 
 namespace glimt {
@@ -54,28 +54,6 @@ std::vector<Variant> make_variants(const ChartOptions& options) {
   return variants;
 }
 
-/// Throws BadInput where the picture cannot be compared with pictures of the scene.
-Image read_reference(const fs::path& file, const Scene& scene) {
-  try {
-    Image reference = read_image(file);
-    Image black{scene.image.width, scene.image.height, {}};
-    black.rgb.resize(3 * static_cast<std::size_t>(black.width) * static_cast<std::size_t>(black.height));
-    compare(black, reference);
-    const Metadata metadata = file.extension() == ".exr" ? read_metadata(file) : Metadata{};
-    if (const auto text = metadata.find("scene"); text != metadata.end()) {
-      Scene shown = parse_scene(text->second, file.string());
-      shown.render = scene.render;
-      if (!(shown == parse_scene(write_scene(scene), file.string())))
-        throw BadInput(file.string() + " is of another scene: what it was rendered from differs in more than settings");
-    }
-    return reference;
-  } catch (const ImageFileError& error) {
-    throw BadInput(error.what());
-  } catch (const std::invalid_argument& error) {
-    throw BadInput(file.string() + " cannot be the reference: " + error.what());
-  }
-}
-
 void print_outcomes(const std::vector<Variant>& variants, const std::vector<Measurement>& measurements) {
   std::size_t widest = 6;
   for (const auto& variant : variants) widest = std::max(widest, variant.label.size());
@@ -91,7 +69,11 @@ void print_outcomes(const std::vector<Variant>& variants, const std::vector<Meas
 
 void draw_chart(const ChartOptions& options, const Scene& scene, bool show) {
   Image reference;
-  if (!options.reference.empty()) reference = read_reference(options.reference, scene);
+  try {
+    if (!options.reference.empty()) reference = read_reference(options.reference, scene);
+  } catch (const std::runtime_error& error) {
+    throw BadInput(error.what());
+  }
   std::vector<Variant> variants = make_variants(options);
   std::vector<Measurement> measurements;
   {

@@ -9,6 +9,7 @@
 #include "film/file_bytes.h"
 #include "film/image_file.h"
 #include "scene/scene_file.h"
+#include "viewer/chart_export.h"
 
 namespace glimt {
 namespace fs = std::filesystem;
@@ -28,14 +29,16 @@ std::string stem_of(const fs::path& file) {
 }  // namespace
 
 Controller::Controller(Scene scene, fs::path file, const std::function<void()>& wake, Execution execution)
-    : snapshots_(wake), watch_(wake), session_(execution, wake) {
+    : snapshots_(wake), watch_(wake), session_(execution, wake), charting_(state_.chart, wake, execution) {
   state_.opened_camera = scene.camera;
   show(std::make_shared<const Scene>(std::move(scene)));
   set_file(std::move(file));
 }
 
-void Controller::recall(const Display& display, fs::path folder, bool show_hint, const std::string& note) {
+void Controller::recall(const Display& display, const ChartView& chart, fs::path folder, bool show_hint,
+                        const std::string& note) {
   state_.display = display;
+  state_.chart.view = chart;
   if (!folder.empty()) state_.folder = std::move(folder);
   state_.hint = show_hint;
   if (!note.empty()) state_.message = {note, true};
@@ -43,11 +46,20 @@ void Controller::recall(const Display& display, fs::path folder, bool show_hint,
 
 bool Controller::poll() {
   bool news = false;
-  if (auto frame = session_.frame(); frame != state_.frame) {
+  // More samples of a scene that is edited meanwhile are not worth showing: the answer to the edit is on its way.
+  const auto outdated = [&](const Frame& frame) {
+    return state_.frame && frame.version == state_.frame->version && frame.version < state_.version;
+  };
+  if (auto frame = session_.frame(); frame != state_.frame && !(frame && outdated(*frame))) {
     state_.frame = std::move(frame);
     if (state_.frame) posted_.erase(posted_.begin(), shown());
+    if (state_.frame && shown()->second == now_) charting_.add(state_.frame);
     news = true;
   }
+  std::string error;
+  news |= charting_.poll(error);
+  if (!error.empty()) state_.message = {error, true};
+  leave_machine_to_chart();
   take_wanted_snapshots();
   if (auto message = snapshots_.take_message()) {
     state_.message = std::move(*message);
@@ -84,12 +96,40 @@ void Controller::apply(const Edits& edits) {
   take_wanted_snapshots();
   state_.can_undo = history_.can_undo();
   state_.can_redo = history_.can_redo();
+  if (edits.compare) {
+    if (edits.compare->held.frame != state_.compare.held.frame)
+      state_.message = {"Held to compare with: " + edits.compare->held.label + ". X compares, B flips"};
+    state_.compare = *edits.compare;
+  }
+  if (edits.inspect) state_.inspect = *edits.inspect;
+  charting_.apply(edits.chart);
+  export_chart(edits.chart);
+  leave_machine_to_chart();
+}
+
+void Controller::leave_machine_to_chart() {
+  if (charting_.busy() && !resume_ && !session_.paused()) {
+    // Times are true only while nothing else is rendered.
+    resume_ = true;
+    session_.set_paused(true);
+  } else if (!charting_.busy() && resume_) {
+    resume_ = false;
+    session_.set_paused(false);
+  }
+  state_.paused = session_.paused();
+}
+
+void Controller::export_chart(const ChartEdits& edits) {
+  const auto& curves = state_.chart.curves.all();
+  if (edits.export_csv) snapshots_.write(curves_csv(curves), stem_ + "-chart", "csv");
+  if (edits.export_svg)
+    snapshots_.write(curves_svg(curves, state_.chart.view.across, state_.scene.name), stem_ + "-chart", "svg");
 }
 
 void Controller::edit(const Scene& scene, std::uint64_t gesture) {
   if (scene == *now_) return;
   Document before = now();
-  show(std::make_shared<const Scene>(scene));
+  show(std::make_shared<const Scene>(scene), gesture);
   history_.edited(std::move(before), gesture);
 }
 
@@ -101,7 +141,7 @@ void Controller::show(const std::optional<Document>& document) {
   if (document->file != state_.file) set_file(document->file);
 }
 
-void Controller::show(std::shared_ptr<const Scene> scene) {
+void Controller::show(std::shared_ptr<const Scene> scene, std::uint64_t gesture) {
   state_.version = session_.post(*scene);
   state_.compiled = session_.compiled();
   state_.scene = *scene;
@@ -109,6 +149,7 @@ void Controller::show(std::shared_ptr<const Scene> scene) {
   if (state_.message.error) state_.message = {};
   posted_[state_.version] = scene;
   now_ = std::move(scene);
+  charting_.show(now_, gesture);
   if (posted_.size() > max_posted) posted_.erase(std::next(posted_.begin()));
 }
 
@@ -190,7 +231,7 @@ void Controller::take_wanted_snapshots() {
     snapshots_.write(std::move(snapshot), stem_);
     return true;
   });
-  bool error_wanted = state_.display.view == View::error;
+  bool error_wanted = state_.display.view == View::error || state_.inspect;
   for (const Snapshot& snapshot : wanted_) error_wanted |= snapshot.radiance || snapshot.display.view == View::error;
   session_.set_error_wanted(error_wanted);
 }

@@ -25,7 +25,8 @@ class Controller {
 
   const ViewerState& state() const { return state_; }
   /// What the window remembers from its last start. To be called before the first edits.
-  void recall(const Display& display, std::filesystem::path folder, bool show_hint, const std::string& note);
+  void recall(const Display& display, const ChartView& chart, std::filesystem::path folder, bool show_hint,
+              const std::string& note);
   /// Takes in finished frames and snapshots, and a scene file that has changed on disk; true where there was one.
   bool poll();
   /// Carries out edits. One that is refused, and a file that cannot be read, change nothing and say why in the message.
@@ -37,7 +38,7 @@ class Controller {
   /// The scene that the frame shows.
   Posted::const_iterator shown() const;
   Document now() const;
-  void show(std::shared_ptr<const Scene> scene);
+  void show(std::shared_ptr<const Scene> scene, std::uint64_t gesture = 0);
   void show(const std::optional<Document>& document);
   void edit(const Scene& scene, std::uint64_t gesture);
   void set_file(std::filesystem::path file);
@@ -47,6 +48,8 @@ class Controller {
   void save(const std::filesystem::path& file);
   void reload();
   void want_snapshot(bool radiance);
+  void export_chart(const ChartEdits& edits);
+  void leave_machine_to_chart();
   void take_wanted_snapshots();
 
   ViewerState state_;
@@ -58,6 +61,8 @@ class Controller {
   SnapshotWriter snapshots_;
   FileWatch watch_;
   Session session_;
+  Charting charting_;
+  bool resume_ = false;  ///< once the chart needs the machine no more
 };
 
 }  // namespace glimt

@@ -21,18 +21,24 @@ std::string number(double value) {
   return text;
 }
 
-/// The colours between two numbers, in a row of the panel.
+/// The scale of the view.
 void draw_legend(const Display& display) {
   ColourScale scale = colour_scale(display.view);
-  if (display.view == View::error) {
-    scale.low /= std::exp2(display.exposure);
-    scale.high /= std::exp2(display.exposure);
+  if (display.view == View::samples) {
+    draw_colour_scale("Samples", "Samples of each pixel", scale);
+    return;
   }
-  begin_row(
-      display.view == View::error ? "W/(m\u00B2 sr)" : "Samples",
-      display.view == View::error
-          ? "Standard error of each pixel's radiance, mean of its channels, as seen from two halves of its samples"
-          : "Samples of each pixel");
+  scale.low /= std::exp2(display.exposure);
+  scale.high /= std::exp2(display.exposure);
+  draw_colour_scale(
+      "W/(m\u00B2 sr)",
+      "Standard error of each pixel's radiance, mean of its channels, as seen from two halves of its samples", scale);
+}
+
+}  // namespace
+
+void draw_colour_scale(const char* label, const char* tip, const ColourScale& scale) {
+  begin_row(label, tip);
   const std::string low = number(scale.low), high = number(scale.high);
   const float gap = style::scaled(6);
   ImGui::TextUnformatted(low.c_str());
@@ -52,8 +58,6 @@ void draw_legend(const Display& display) {
   ImGui::SameLine(0, gap);
   ImGui::TextUnformatted(high.c_str());
 }
-
-}  // namespace
 
 void draw_display_panel(const ViewerState& state, Edits& edits) {
   Display display = state.display;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "viewer/style.h"
@@ -15,8 +16,9 @@ namespace {
 constexpr float sheet_width = 460, list_height = 320;
 constexpr std::size_t longest_name = 256;
 
-bool is_wanted(const fs::path& file) {
+bool is_wanted(const fs::path& file, FilesPanel::Purpose purpose) {
   const fs::path ending = file.extension();
+  if (purpose == FilesPanel::Purpose::reference) return ending == ".exr" || ending == ".pfm";
   return ending == ".toml" || ending == ".png" || ending == ".exr";
 }
 
@@ -40,7 +42,7 @@ void FilesPanel::look_into(const fs::path& folder) {
     std::error_code ignored;
     const bool is_folder = it->is_directory(ignored);
     const std::string name = it->path().filename().string();
-    if (!name.starts_with('.') && (is_folder || is_wanted(it->path()))) entries_.push_back({name, is_folder});
+    if (!name.starts_with('.') && (is_folder || is_wanted(it->path(), purpose_))) entries_.push_back({name, is_folder});
   }
   std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(), [](const Entry& a, const Entry& b) {
     return std::pair(!a.is_folder, a.name) < std::pair(!b.is_folder, b.name);
@@ -59,7 +61,9 @@ void FilesPanel::draw(const Rect& area, Edits& edits) {
                    ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);
-  heading(purpose_ == Purpose::open ? "Open a scene, or a picture with its scene" : "Save the scene");
+  constexpr std::array titles{"", "Open a scene, or a picture with its scene", "Save the scene",
+                              "Open a reference: EXR or PFM of this scene and size"};
+  heading(titles.at(static_cast<std::size_t>(purpose_)));
   ImGui::PushStyleColor(ImGuiCol_Text, style::muted);
   ImGui::TextUnformatted(fit_text(folder_.string(), ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
@@ -82,7 +86,7 @@ void FilesPanel::draw_entries(Edits& edits) {
       into = entry.name;
     } else {
       name_ = entry.name;
-      if (purpose_ == Purpose::open) choose(edits);
+      if (purpose_ != Purpose::save) choose(edits);
     }
   }
   ImGui::EndChild();
@@ -123,7 +127,10 @@ void FilesPanel::draw_name(Edits& edits) {
 }
 
 void FilesPanel::choose(Edits& edits) {
-  (purpose_ == Purpose::open ? edits.open : edits.save) = folder_ / name_;
+  auto& wanted = purpose_ == Purpose::reference ? edits.chart.load_reference
+                 : purpose_ == Purpose::open    ? edits.open
+                                                : edits.save;
+  wanted = folder_ / name_;
   close();
 }
 

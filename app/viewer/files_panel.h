@@ -12,7 +12,7 @@ namespace glimt {
 /// The sheet over the picture on which a file is chosen.
 class FilesPanel {
  public:
-  enum class Purpose { none, open, save };
+  enum class Purpose { none, open, save, reference };
 
   void show(Purpose purpose, const ViewerState& state);
   void close() { purpose_ = Purpose::none; }

@@ -18,10 +18,6 @@ constexpr double dolly_step = 0.9;                   ///< distance after a notch
 constexpr float zoom_step = 1.25F;                   ///< of the picture, a notch
 constexpr float least_zoom = 0.05F, most_zoom = 64;  ///< framebuffer pixels per picture pixel
 
-bool is_inside(const Rect& r, const ImVec2& p) {
-  return p.x >= r.x && p.y >= r.y && p.x < r.x + r.width && p.y < r.y + r.height;
-}
-
 /// A place of the window in pixels of the image.
 glm::dvec2 image_place(const ViewerState& state, const Placement& place, const ImVec2& p) {
   const Rect& r = place.rect;
@@ -33,7 +29,7 @@ glm::dvec2 image_place(const ViewerState& state, const Placement& place, const I
 
 void ImageTool::take_mouse(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool free = !io.WantCaptureMouse && state.frame && is_inside(area, io.MousePos);
+  const bool free = !io.WantCaptureMouse && state.frame && is_inside(area, io.MousePos.x, io.MousePos.y);
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left),
              middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   if (free && (left || middle) && drag_ == Drag::none) {

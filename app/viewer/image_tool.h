@@ -16,7 +16,7 @@ class ImageTool {
  public:
   const Zoom& zoom() const { return zoom_; }
   void fit() { zoom_ = {}; }
-  void set_zoom(float zoom) { zoom_ = {.zoom = zoom}; }
+  void set_zoom(const Zoom& zoom) { zoom_ = zoom; }
 
   /// Takes the mouse's doings of this picture of the window, where no panel does.
   void take_mouse(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits);

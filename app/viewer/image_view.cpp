@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "viewer/shown_image.h"
 
@@ -16,8 +17,6 @@ ImageView::~ImageView() {
 
 void ImageView::upload(const Image& image) {
   const auto pixels = to_srgb8(image, display_);
-  if (texture_ == 0) glGenTextures(1, &texture_);
-  glBindTexture(GL_TEXTURE_2D, texture_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   if (image.width != width_ || image.height != height_) {
     width_ = image.width;
@@ -30,23 +29,31 @@ void ImageView::upload(const Image& image) {
   }
 }
 
+bool ImageView::prepare() {
+  if (!frame_) return false;
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  const auto image = std::exchange(waiting_, nullptr);
+  if (image) upload(*image);
+  // A preview has fewer pixels than the picture that it stands for.
+  const GLint filter = whole_ && width_ == frame_->size.width ? GL_NEAREST : GL_LINEAR;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  return image != nullptr;
+}
+
 void ImageView::draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area,
                      const Placement& place) {
   if (!frame) return;
   if (frame != frame_ || display != display_) {
-    if (const auto image = shown_image(frame, display.view)) {
+    if (auto image = shown_image(frame, display.view)) {
       frame_ = frame;
       display_ = display;
-      upload(*image);
+      waiting_ = std::move(image);
     }
   }
   if (!frame_) return;
-  // A preview has fewer pixels than the picture that it stands for.
-  const bool sharp = place.whole && width_ == frame->size.width;
-  const GLint filter = sharp ? GL_NEAREST : GL_LINEAR;
-  glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  if (texture_ == 0) glGenTextures(1, &texture_);
+  whole_ = place.whole;
   const auto& r = place.rect;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect({area.x, area.y}, {area.x + area.width, area.y + area.height});

@@ -15,6 +15,24 @@ Layout make_layout(float width, float height, float scale) {
   return layout;
 }
 
+Layout with_chart(const Layout& layout, int image_width, int image_height, float scale) {
+  Layout below = layout, beside = layout;
+  const Rect& free = layout.image;
+  const float height = std::min(304 * scale, free.height / 2), width = std::min(440 * scale, free.width / 2);
+  below.image.height -= height;
+  below.chart = {free.x, free.y + below.image.height, free.width, height};
+  beside.image.width -= width;
+  beside.chart = {free.x + beside.image.width, free.y, width, free.height};
+  const auto zoom = [&](const Rect& r) {
+    return std::min(r.width / static_cast<float>(image_width), r.height / static_cast<float>(image_height));
+  };
+  return zoom(beside.image) > zoom(below.image) ? beside : below;
+}
+
+bool is_inside(const Rect& rect, float x, float y) {
+  return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
+}
+
 Placement place_image(int image_width, int image_height, const Rect& area, float ratio) {
   const auto w = static_cast<float>(image_width), h = static_cast<float>(image_height);
   Placement place;

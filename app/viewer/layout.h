@@ -12,10 +12,16 @@ struct Layout {
   Rect image;   ///< free space for the picture
   Rect status;  ///< one line below it
   Rect column;  ///< the controls, at the right
+  Rect chart;   ///< empty where it is not shown
 };
 
 /// `scale` is 1 on an ordinary screen and 2 where everything should be twice as large.
 Layout make_layout(float width, float height, float scale);
+
+/// The same with a part of the picture's space for the chart, below or beside it, whichever leaves the picture larger.
+Layout with_chart(const Layout& layout, int image_width, int image_height, float scale);
+
+bool is_inside(const Rect& rect, float x, float y);
 
 /// Where a picture is drawn.
 struct Placement {

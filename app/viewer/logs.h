@@ -13,7 +13,9 @@ class Logs {
  public:
   Logs();
   /// To be called when a picture of the window is on the screen.
-  void shown(const ViewerState& state, const WidgetRects& widgets);
+  void picture(const ViewerState& state);
+  /// To be called when the controls have been laid out.
+  void laid_out(const WidgetRects& widgets);
 
  private:
   std::ofstream frames_;

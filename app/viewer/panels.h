@@ -11,6 +11,8 @@ void draw_progress_panel(const ViewerState& state);
 /// What a button asks the screen for, which is no edit.
 struct Requests {
   bool open = false, save = false;
+  bool reference = false;  ///< a file to measure against
+  bool worst = false;      ///< to go to the worst pixel
 };
 
 /// Pause, restart, undo, redo, files, snapshots.
@@ -18,6 +20,12 @@ void draw_actions_panel(const ViewerState& state, Edits& edits, Requests& reques
 
 /// Exposure, tone curve, view.
 void draw_display_panel(const ViewerState& state, Edits& edits);
+
+/// A row with the colours between two numbers.
+void draw_colour_scale(const char* label, const char* tip, const ColourScale& scale);
+
+/// What the picture is compared with, and how.
+void draw_compare_panel(const ViewerState& state, Edits& edits, Requests& requests);
 
 /// Every object by name; material, place and size of the one that is selected.
 void draw_objects_panel(const ViewerState& state, Edits& edits);

@@ -6,11 +6,12 @@
 #include <imgui_internal.h>
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "viewer/chart_panel.h"
 #include "viewer/layout.h"
-#include "viewer/panels.h"
 #include "viewer/style.h"
 
 namespace glimt {
@@ -24,6 +25,22 @@ void place_window(const Rect& place) {
   ImGui::SetNextWindowSize({place.width, place.height});
 }
 
+/// All that decides what a picture looks like, but for what its textures hold.
+std::string bytes_of(const ImDrawData& data) {
+  std::string bytes;
+  const auto add = [&bytes](const auto* first, int count) {
+    bytes.append(reinterpret_cast<const char*>(first), static_cast<std::size_t>(count) * sizeof *first);
+  };
+  add(&data.DisplaySize, 1);
+  add(&data.FramebufferScale, 1);
+  for (const ImDrawList* list : std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {
+    add(list->CmdBuffer.Data, list->CmdBuffer.Size);
+    add(list->VtxBuffer.Data, list->VtxBuffer.Size);
+    add(list->IdxBuffer.Data, list->IdxBuffer.Size);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 Screen::Screen() {
@@ -34,10 +51,12 @@ Screen::Screen() {
   io.UserData = &widgets_;
   ImGui_ImplOpenGL2_Init();
   image_ = std::make_unique<ImageView>();
+  compare_ = std::make_unique<CompareLayer>();
 }
 
 Screen::~Screen() {
   image_.reset();
+  compare_.reset();
   ImGui_ImplOpenGL2_Shutdown();
   ImGui::DestroyContext();
 }
@@ -51,7 +70,7 @@ void Screen::set_scale(float scale, float ratio) {
   ImGui_ImplOpenGL2_CreateFontsTexture();
 }
 
-void Screen::draw(const ViewerState& state, float scale, Edits& edits) {
+void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   const ImGuiIO& io = ImGui::GetIO();
   const float ratio = io.DisplayFramebufferScale.x;
   set_scale(scale, ratio);
@@ -60,26 +79,45 @@ void Screen::draw(const ViewerState& state, float scale, Edits& edits) {
   widgets_.clear();
 
   follow_gesture(edits);
-  const Layout layout = make_layout(io.DisplaySize.x, io.DisplaySize.y, scale);
-  const Placement picture =
-      place_image(state.scene.image.width, state.scene.image.height, layout.image, ratio, tool_.zoom());
+  const ImageSize& size = state.scene.image;
+  Layout layout = make_layout(io.DisplaySize.x, io.DisplaySize.y, scale);
+  if (state.chart.view.shown) layout = with_chart(layout, size.width, size.height, scale);
+  chart_ = layout.chart;
+  const Placement picture = place_image(size.width, size.height, layout.image, ratio, tool_.zoom());
   image_->draw(state.frame, state.display, layout.image, picture);
+  compare_->draw(state, layout.image, picture);
   tool_.draw_outline(state, layout.image, picture);
   widgets_["image"] = picture.rect;
   tool_.take_mouse(state, layout.image, picture, edits);
+  inspector_.draw(state, layout.image, picture);
   if (state.hint && state.frame) draw_hint(layout.image);
-  draw_column(state, layout.column, edits);
+  compare_->draw_line(state, layout.image, picture, edits);
+  Requests requests;
+  draw_column(state, layout.column, edits, requests);
+  if (state.chart.view.shown) draw_chart_panel(state, layout.chart, edits, requests);
+  carry_out(requests, state, edits);
   draw_status(state, layout.status, picture);
   files_.draw(layout.image, edits);
   if (help_ && draw_help_panel(layout.image)) help_ = false;
   selected_ = state.selected;
 
   ImGui::Render();
+}
+
+bool Screen::paint() {
+  const ImDrawData& data = *ImGui::GetDrawData();
+  std::string lists = bytes_of(data);
+  const bool new_picture = image_->prepare(), new_comparison = compare_->prepare();
+  if (!new_picture && !new_comparison && lists == painted_) return false;
+  painted_ = std::move(lists);
+
   const ImVec4 backdrop = ImColor(style::backdrop);
-  glViewport(0, 0, static_cast<int>(io.DisplaySize.x * ratio), static_cast<int>(io.DisplaySize.y * ratio));
+  glViewport(0, 0, static_cast<int>(data.DisplaySize.x * data.FramebufferScale.x),
+             static_cast<int>(data.DisplaySize.y * data.FramebufferScale.y));
   glClearColor(backdrop.x, backdrop.y, backdrop.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL2_RenderDrawData(ImGui::GetDrawData());
+  return true;
 }
 
 void Screen::follow_gesture(Edits& edits) {
@@ -104,19 +142,24 @@ void Screen::escape(Edits& edits) {
   }
 }
 
-void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edits) {
+void Screen::carry_out(const Requests& requests, const ViewerState& state, Edits& edits) {
+  if (requests.open) files_.show(FilesPanel::Purpose::open, state);
+  if (requests.save) files_.show(FilesPanel::Purpose::save, state);
+  if (requests.reference) files_.show(FilesPanel::Purpose::reference, state);
+  if (requests.worst) go_to_worst_pixel(state, edits);
+}
+
+void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests) {
   place_window(place);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(16), style::scaled(14)});
   ImGui::Begin("controls", nullptr, fixed_window);
   ImGui::PopStyleVar();
   draw_progress_panel(state);
   ImGui::Dummy({0, style::scaled(2)});
-  Requests requests;
   draw_actions_panel(state, edits, requests);
-  if (requests.open) files_.show(FilesPanel::Purpose::open, state);
-  if (requests.save) files_.show(FilesPanel::Purpose::save, state);
   ImGui::Dummy({0, style::scaled(4)});
   draw_display_panel(state, edits);
+  draw_compare_panel(state, edits, requests);
   ImGui::Dummy({0, style::scaled(4)});
   draw_tabs(state, edits);
   ImGui::End();

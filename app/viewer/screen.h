@@ -1,15 +1,19 @@
 #pragma once
 
+#include "viewer/compare_layer.h"
 #include "viewer/files_panel.h"
 #include "viewer/image_tool.h"
 #include "viewer/image_view.h"
+#include "viewer/inspector.h"
+#include "viewer/panels.h"
 #include "viewer/state.h"
 #include "viewer/widgets.h"
 
 namespace glimt {
 
 /// Draws the window's contents with ImGui and OpenGL 2 into the current context, whoever made it. Owns the ImGui
-/// context; sizes, mouse and keys are set in ImGui::GetIO() by the platform before each draw().
+/// context; sizes, mouse and keys are set in ImGui::GetIO() by the platform before each
+/// lay_out().
 class Screen {
  public:
   Screen();
@@ -17,22 +21,34 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Draws everything and adds what was asked for to `edits`. `scale` is window coordinates per unit of design.
-  void draw(const ViewerState& state, float scale, Edits& edits);
+  /// Lays out the next picture and adds what was asked for to `edits`. `scale` is window coordinates per unit of
+  /// design.
+  void lay_out(const ViewerState& state, float scale, Edits& edits);
+  /// Draws what was laid out, unless the last picture looked the same; true where it drew.
+  bool paint();
+  /// The last picture is lost.
+  void forget_picture() { painted_.clear(); }
 
-  /// Where the controls of the last draw() are.
+  /// Where the controls of the last lay_out() are.
   const WidgetRects& widgets() const { return widgets_; }
 
   // What keys do to the screen itself.
   void toggle_help() { help_ = !help_; }
   void show_files(FilesPanel::Purpose purpose, const ViewerState& state) { files_.show(purpose, state); }
   void fit_picture() { tool_.fit(); }
-  void show_pixel_by_pixel() { tool_.set_zoom(1); }
+  void show_pixel_by_pixel() { tool_.set_zoom({.zoom = 1}); }
   /// Closes the sheets over the picture, or selects nothing.
   void escape(Edits& edits);
+  /// The keys of chart and comparison.
+  void press(char letter, const ViewerState& state, Edits& edits);
+  /// A file dropped into the window: a scene, a picture with its scene, or a reference, which PFM files and pictures
+  /// dropped onto the chart are.
+  void drop(const std::filesystem::path& file, Edits& edits) const;
 
  private:
-  void draw_column(const ViewerState& state, const Rect& place, Edits& edits);
+  void draw_column(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests);
+  void carry_out(const Requests& requests, const ViewerState& state, Edits& edits);
+  void go_to_worst_pixel(const ViewerState& state, Edits& edits);
   void draw_tabs(const ViewerState& state, Edits& edits);
   void draw_status(const ViewerState& state, const Rect& place, const Placement& picture);
   void draw_hint(const Rect& area) const;
@@ -40,7 +56,11 @@ class Screen {
   void follow_gesture(Edits& edits);
 
   WidgetRects widgets_;
+  std::string painted_;  ///< all of ImGui's lists in the last picture
   std::unique_ptr<ImageView> image_;
+  std::unique_ptr<CompareLayer> compare_;
+  Inspector inspector_;
+  Rect chart_;  ///< in the last picture
   ImageTool tool_;
   FilesPanel files_;
   bool help_ = false;

@@ -29,7 +29,7 @@ bool is_complete(const Snapshot& snapshot);
 std::filesystem::path reserve_snapshot_file(const std::filesystem::path& folder, const std::string& stem,
                                             const std::string& ending);
 
-/// Writes snapshots in the background. The destructor waits until all are written.
+/// Writes files in the background. The destructor waits until all are written.
 class SnapshotWriter {
  public:
   /// `wake` is called on another thread when a message is there.
@@ -37,10 +37,14 @@ class SnapshotWriter {
 
   /// Writes STEM-NNN.png or .exr into the current folder, never over another file.
   void write(Snapshot snapshot, std::string stem);
+  /// The same for a text, STEM-NNN.ENDING.
+  void write(std::string text, std::string stem, std::string ending);
   /// What has become of the last one, once.
   std::optional<Message> take_message();
 
  private:
+  void run(std::function<Message()> job);
+
   std::function<void()> wake_;
   std::mutex mutex_;
   std::optional<Message> message_;

@@ -10,6 +10,8 @@
 #include "render/session.h"
 #include "scene/pick.h"
 #include "scene/scene.h"
+#include "viewer/charting.h"
+#include "viewer/compare.h"
 
 namespace glimt {
 
@@ -33,6 +35,9 @@ struct ViewerState {
   bool hint = false;                   ///< the line for somebody's first start is shown
   std::shared_ptr<const Frame> frame;  ///< the newest; null before the first
   Message message;
+  ChartState chart;
+  Compare compare;
+  bool inspect = false;  ///< the pixel under the mouse is told in numbers
 };
 
 /// What a person asked for while one picture of the window was drawn.
@@ -50,6 +55,9 @@ struct Edits {
   bool undo = false, redo = false;
   bool snapshot = false, snapshot_exr = false;
   bool dismiss_hint = false;
+  ChartEdits chart;
+  std::optional<Compare> compare;
+  std::optional<bool> inspect;
   bool quit = false;
 
   /// The scene to write an edit into.

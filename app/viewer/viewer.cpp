@@ -22,6 +22,9 @@ namespace {
 
 /// ImGui needs some pictures after the last event until menus and tooltips stand.
 constexpr int pictures_to_settle = 6;
+/// So long, in seconds, a picture waits for the image that answers an edit: mostly it comes sooner, and the two are
+/// painted as one.
+constexpr double patience = 0.006;
 
 /// What has come in from the window since the last picture.
 struct Inbox {
@@ -50,6 +53,7 @@ void on_letter(Inbox& in, char letter, bool control, bool shift) {
   if (letter == 's') (shift ? edits.snapshot_exr : edits.snapshot) = true;
   if (letter == 'f') in.screen->fit_picture();
   if (letter == '1') in.screen->show_pixel_by_pixel();
+  in.screen->press(letter, *in.state, edits);
   if (letter == 'v') {
     edits.display = in.state->display;
     edits.display->view = next(edits.display->view);
@@ -83,7 +87,7 @@ void on_character(GLFWwindow* window, unsigned character) {
 
 void on_drop(GLFWwindow* window, int count, const char** paths) {
   inbox(window).touched = true;
-  if (count > 0) inbox(window).edits.open = paths[0];
+  if (count > 0) inbox(window).screen->drop(paths[0], inbox(window).edits);
 }
 
 void set_callbacks(GLFWwindow* window, Inbox& in) {
@@ -97,7 +101,10 @@ void set_callbacks(GLFWwindow* window, Inbox& in) {
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { inbox(w).touched = true; });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { inbox(w).touched = true; });
   glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { inbox(w).touched = true; });
-  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { inbox(w).touched = true; });
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) {
+    inbox(w).touched = true;
+    inbox(w).screen->forget_picture();
+  });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { inbox(w).touched = true; });
   glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { inbox(w).touched = true; });
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { inbox(w).edits.quit = true; });
@@ -121,11 +128,15 @@ void wait(double next_picture, bool settled) {
   glfwPollEvents();
 }
 
+/// The picture is of the scene as edited.
+bool answered(const ViewerState& state) { return state.frame && state.frame->version >= state.version; }
+
 /// Remembers the window for its next start. Not to be able to is no reason to fail.
 void remember(const Window& window, const ViewerState& state) {
   const auto file = window_settings_file();
   if (file.empty()) return;
-  WindowSettings settings{.display = state.display, .folder = state.folder, .hint_seen = !state.hint};
+  WindowSettings settings{
+      .display = state.display, .folder = state.folder, .hint_seen = !state.hint, .chart = state.chart.view};
   window.size(settings.width, settings.height);
   try {
     write_window_settings(file, settings);
@@ -140,7 +151,7 @@ void run(const std::filesystem::path& scene_file) {
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
   Controller controller(std::move(scene), scene_file, [] { glfwPostEmptyEvent(); });
-  controller.recall(settings.display, settings.folder, !settings.hint_seen, note);
+  controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note);
   const Window window(settings.width, settings.height);
   Inbox in;
   set_callbacks(window.handle(), in);
@@ -150,7 +161,7 @@ void run(const std::filesystem::path& scene_file) {
   const Platform platform(window.handle());
   Logs logs;
 
-  double next_picture = 0;
+  double next_picture = 0, painted_at = 0, patient_until = 0;
   int unsettled = pictures_to_settle;
   while (!in.edits.quit) {
     wait(next_picture, unsettled == 0);
@@ -162,14 +173,26 @@ void run(const std::filesystem::path& scene_file) {
     if (unsettled == 0) continue;
 
     --unsettled;
-    next_picture = glfwGetTime() + window.frame_time();
+    const double start = glfwGetTime();
     ImGui_ImplGlfw_NewFrame();
-    screen.draw(controller.state(), window.scale(), in.edits);
-    glfwSwapBuffers(window.handle());
-    logs.shown(controller.state(), screen.widgets());
+    screen.lay_out(controller.state(), window.scale(), in.edits);
+    // Before the picture is painted, so that the answer to an edit is rendered meanwhile.
     const bool quit = in.edits.quit;
+    const std::uint64_t version = controller.state().version;
     controller.apply(std::exchange(in.edits, {}));
     in.edits.quit = quit;
+    if (controller.state().version != version && patient_until <= painted_at) patient_until = start + patience;
+    const bool waits = start < patient_until && !answered(controller.state());
+    if (waits) unsettled = std::max(unsettled, 1);
+    const bool painted = !waits && screen.paint();
+    // Where nothing changes on the screen, edits are taken in sooner than it can show pictures.
+    next_picture = start + window.frame_time() * (painted ? 1 : 0.125);
+    if (painted) {
+      painted_at = start;
+      glfwSwapBuffers(window.handle());
+      logs.picture(controller.state());
+    }
+    logs.laid_out(screen.widgets());
   }
   remember(window, controller.state());
 }

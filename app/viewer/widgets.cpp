@@ -113,6 +113,21 @@ void begin_row(const std::string& label, std::string_view tip) {
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
+ButtonRow::ButtonRow(int columns) : columns_(columns) {
+  const float gaps = static_cast<float>(columns - 1) * ImGui::GetStyle().ItemSpacing.x;
+  width_ = (ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(columns);
+}
+
+bool ButtonRow::button(const char* label, const char* name, std::string_view tip, bool enabled) {
+  if (count_++ % columns_ != 0) ImGui::SameLine();
+  ImGui::BeginDisabled(!enabled);
+  const bool pressed = ImGui::Button(label, {width_, 0});
+  ImGui::EndDisabled();
+  note_widget(name);
+  tooltip(tip);
+  return pressed;
+}
+
 void text_row(const std::string& label, const std::string& value, std::string_view tip) {
   ImGui::PushStyleColor(ImGuiCol_Text, style::muted);
   ImGui::TextUnformatted(label.c_str());
@@ -128,7 +143,7 @@ void place_beside_controls() {
   if (item.x >= layout.column.x) {
     ImGui::SetNextWindowPos({layout.column.x - style::scaled(8), item.y}, ImGuiCond_Always, {1, 0});
   } else {
-    ImGui::SetNextWindowPos({item.x, layout.status.y - style::scaled(8)}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowPos({item.x, std::min(item.y, layout.status.y) - style::scaled(8)}, ImGuiCond_Always, {0, 1});
   }
 }
 

@@ -39,11 +39,23 @@ bool logarithmic_slider(double& value, double low, double high, const char* unit
 void wrapped_text(const std::string& text);
 void muted_text(const std::string& text);
 
+/// Buttons side by side, so many in a row that fills the width.
+class ButtonRow {
+ public:
+  explicit ButtonRow(int columns);
+  /// True where it was pressed. `tip` is shown while the mouse is on it.
+  bool button(const char* label, const char* name, std::string_view tip, bool enabled = true);
+
+ private:
+  int columns_, count_ = 0;
+  float width_;
+};
+
 /// A row of text.
 void text_row(const std::string& label, const std::string& value, std::string_view tip);
 
-/// Places the next pop-up window beside the item drawn last, outside the column, or above the status line, so that it
-/// hides no control.
+/// Places the next pop-up window beside the item drawn last, outside the column, or above the item, so that it hides
+/// no control.
 void place_beside_controls();
 
 /// Shows `tip`, wrapped, while the mouse is on the item drawn last.

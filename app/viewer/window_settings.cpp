@@ -36,6 +36,10 @@ WindowSettings read_table(const toml::table& table) {
   take_side(table, "width", settings.width);
   take_side(table, "height", settings.height);
   take(table, "hint_seen", settings.hint_seen);
+  take(table, "chart", settings.chart.shown);
+  bool by_samples = false;
+  take(table, "chart_by_samples", by_samples);
+  if (by_samples) settings.chart.across = Across::samples;
   std::string folder;
   take(table, "folder", folder);
   settings.folder = folder;
@@ -67,8 +71,10 @@ WindowSettings read_window_settings(const fs::path& file, std::string& note) {
 }
 
 void write_window_settings(const fs::path& file, const WindowSettings& settings) {
+  const auto truth = [](bool value) { return value ? "true" : "false"; };
   std::string text = "width = " + std::to_string(settings.width) + "\nheight = " + std::to_string(settings.height) +
-                     "\nhint_seen = " + (settings.hint_seen ? "true" : "false") +
+                     "\nhint_seen = " + truth(settings.hint_seen) + "\nchart = " + truth(settings.chart.shown) +
+                     "\nchart_by_samples = " + truth(settings.chart.across == Across::samples) +
                      "\nfolder = " + toml_string(settings.folder.string()) + "\n";
   for (const auto& [key, value] : display_texts(settings.display)) text += key + " = " + toml_string(value) + "\n";
   std::error_code failed;  // writing says what is wrong

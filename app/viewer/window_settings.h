@@ -4,6 +4,7 @@
 #include <string>
 
 #include "film/display.h"
+#include "viewer/charting.h"
 
 namespace glimt {
 
@@ -13,6 +14,7 @@ struct WindowSettings {
   Display display;
   std::filesystem::path folder;  ///< last looked into for files; empty: the current one
   bool hint_seen = false;        ///< the line for a first start was read
+  ChartView chart;
 };
 
 /// glimt/window.toml in the user's configuration directory ($XDG_CONFIG_HOME, else ~/.config); empty where there is

@@ -16,39 +16,45 @@ double srgb_to_linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// Rounds the sRGB curve exactly, without a power per value: an octave of linear values is cut into 128 bins, so finely
-/// that a bin holds at most one of the values where the rounded code steps up.
+/// Rounds the sRGB curve exactly, without a power or a branch per value: an octave of linear values is cut into 128
+/// bins, so finely that the rounded code steps up at one value in a bin at most.
 class SrgbTable {
  public:
   SrgbTable() {
-    for (std::size_t code = 1; code < 256; ++code) {
-      const double step = srgb_to_linear((static_cast<double>(code) - 0.5) / 255);
-      float first = static_cast<float>(step);
-      if (first < step) first = std::nextafter(first, 2.0f);
-      first_[code] = first;
-    }
-    first_[256] = 2.0f;
-    std::uint8_t code = 0;
+    std::uint32_t code = 0;
+    std::uint32_t step = first_of(1);
     for (std::uint32_t bin = 0; bin < bins_.size(); ++bin) {
-      const float lower_edge = std::bit_cast<float>((bin << shift) + lowest_bits);
-      while (first_[code + 1u] <= lower_edge) ++code;
-      bins_[bin] = code;
+      const std::uint32_t edge = (bin << shift) + lowest_bits;
+      for (; step <= edge; step = first_of(code + 1)) ++code;
+      const std::uint32_t below = step - edge;  // values of the bin that are below its step
+      bins_[bin] = (code << shift) + (below < bin_size ? bin_size - below : 0);
     }
   }
 
   std::uint8_t operator()(float linear) const {
-    if (!(linear > lowest)) return 0;
-    if (linear >= 1.0f) return 255;
-    const std::uint8_t code = bins_[(std::bit_cast<std::uint32_t>(linear) - lowest_bits) >> shift];
-    return static_cast<std::uint8_t>(code + (linear >= first_[code + 1u]));
+    float inside = linear > lowest ? linear : lowest;  // also where it is no number
+    inside = inside < highest ? inside : highest;
+    const auto bits = std::bit_cast<std::uint32_t>(inside) - lowest_bits;
+    return static_cast<std::uint8_t>((bins_[bits >> shift] + bits % bin_size) >> shift);
   }
 
  private:
   static constexpr float lowest = 0x1p-13f;  // below the first step, 0.5 / 255 / 12.92
+  static constexpr float highest = 1 - 0x1p-24f;
   static constexpr std::uint32_t lowest_bits = std::bit_cast<std::uint32_t>(lowest);
   static constexpr int shift = 16;
-  std::array<float, 257> first_{};                          ///< smallest linear value of each code
-  std::array<std::uint8_t, std::size_t{13} * 128> bins_{};  ///< code at the lower edge of each bin
+  static constexpr std::uint32_t bin_size = 1u << shift;
+
+  /// Bits of the smallest linear value of a code; more than any value's for 256.
+  static std::uint32_t first_of(std::uint32_t code) {
+    if (code > 255) return std::bit_cast<std::uint32_t>(2.0f);
+    const double step = srgb_to_linear((code - 0.5) / 255);
+    const auto first = static_cast<float>(step);
+    return std::bit_cast<std::uint32_t>(first < step ? std::nextafter(first, 2.0f) : first);
+  }
+
+  /// Code at the lower edge of each bin, in the upper half; what carries into it from the bin's step on, in the lower.
+  std::array<std::uint32_t, std::size_t{13} * 128> bins_{};
 };
 
 constexpr std::array<std::string_view, 2> tone_names{"linear", "filmic"};
@@ -70,9 +76,9 @@ float filmic(float x) {
   return v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f);
 }
 
-/// From dark to bright, evenly enough that steps are seen everywhere. 8-bit sRGB.
+/// From dark to bright in steps that look alike (CIE L*a*b*), in grey too. 8-bit sRGB.
 constexpr std::array<std::array<float, 3>, 5> scale_stops{
-    {{14, 15, 34}, {52, 52, 140}, {176, 58, 116}, {244, 148, 62}, {255, 250, 205}}};
+    {{25, 19, 36}, {74, 40, 139}, {192, 71, 116}, {249, 149, 79}, {241, 236, 196}}};
 
 std::vector<std::uint8_t> on_colour_scale(const Image& image, const ColourScale& scale, float factor) {
   const auto low = static_cast<float>(std::log2(scale.low));
@@ -143,11 +149,12 @@ std::vector<std::uint8_t> to_srgb8(const Image& image, const Display& display) {
   const bool soft = display.tone == Tone::filmic;
   const auto values = static_cast<std::ptrdiff_t>(image.rgb.size());
   std::vector<std::uint8_t> bytes(image.rgb.size());
-#pragma omp parallel for if (values > (1 << 21))
+  const float* from = image.rgb.data();
+  std::uint8_t* to = bytes.data();
+#pragma omp parallel for simd if (parallel : values > (1 << 21))
   for (std::ptrdiff_t i = 0; i < values; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const float value = image.rgb[k] * factor;
-    bytes[k] = table(soft ? filmic(value) : value);
+    const float value = from[i] * factor;
+    to[i] = table(soft ? filmic(value) : value);
   }
   return bytes;
 }

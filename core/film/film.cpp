@@ -1,10 +1,13 @@
 #include "film/film.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace glimt {
 namespace {
@@ -25,7 +28,11 @@ void count(std::uint64_t& counter) { std::atomic_ref(counter).fetch_add(1, std::
 template <class F>
 Image make_image(int width, int height, F f) {
   const int pixels = width * height;
-  Image image{width, height, std::vector<float>(static_cast<std::size_t>(pixels) * 3)};
+  const auto values = static_cast<std::size_t>(pixels) * 3;
+  Image image{width, height, {}};
+  image.rgb.reserve(values);
+  use_huge_pages(image.rgb.data(), values * sizeof(float));
+  image.rgb.resize(values);
 #pragma omp parallel for if (pixels > (1 << 16))
   for (int i = 0; i < pixels; ++i) {
     const auto value = f(i);
@@ -37,6 +44,11 @@ Image make_image(int width, int height, F f) {
 double reciprocal(int n) { return n > 0 ? 1.0 / n : 0.0; }
 
 }  // namespace
+
+void use_huge_pages(void* memory, std::size_t bytes) {
+  constexpr std::size_t page = 4096, huge_page = std::size_t{1} << 21;
+  if (std::size_t left = bytes; std::align(page, huge_page, memory, left)) madvise(memory, left, MADV_HUGEPAGE);
+}
 
 Film::Film(int width, int height, double max_radiance) : width_(width), height_(height) {
   // Within the range of float, with room for the fixed point on either side.

@@ -22,6 +22,10 @@ struct Image {
   const float* pixel(int x, int y) const { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
 };
 
+/// Asks for huge pages in new memory, where it is large enough and the system has them: to be given small ones, and to
+/// give them back, takes a film longer than a path through each pixel.
+void use_huge_pages(void* memory, std::size_t bytes);
+
 /// Memory that is zero without being written to, so that a large film is there at once and its pages come as they are
 /// needed.
 template <class T>
@@ -29,8 +33,10 @@ struct ZeroedMemory {
   using value_type = T;
 
   T* allocate(std::size_t n) {
-    if (void* memory = std::calloc(n, sizeof(T))) return static_cast<T*>(memory);
-    throw std::bad_alloc();
+    void* memory = std::calloc(n, sizeof(T));
+    if (memory == nullptr) throw std::bad_alloc();
+    use_huge_pages(memory, n * sizeof(T));
+    return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t) { std::free(memory); }
   void construct(T*) {}

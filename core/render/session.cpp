@@ -191,10 +191,11 @@ void Session::work() {
         }
       }
       now = kept ? std::move(*kept) : Accumulation{.film = make_film(*job->compiled), .progress = {}};
+      if (now.pass == 0) now.relmse_estimate = relmse_estimate(now.film);  // the one kept may be of fewer samples
       more = now.film.samples() == 0 || now.pass > 0;
     }
     if (more) render_some(*job, now);
-    if (now.pass > 0) continue;  // cancelled
+    if (now.pass > 0 || unwanted(*job)) continue;
     shown = true;
     shown_finished = finished(job->scene.render, now);
     shown_error = with_error;
@@ -207,6 +208,8 @@ bool Session::superseded_soon(const Job& job) {
   return wake_.wait_for(lock, edit_pause, [&] { return quit_ || job_->version != job.version; });
 }
 
+bool Session::unwanted(const Job& job) const { return job.preview && cancel_; }
+
 void Session::render_some(const Job& job, Accumulation& now) {
   const int samples = now.film.samples();
   if (now.pass == 0) {
@@ -214,7 +217,8 @@ void Session::render_some(const Job& job, Accumulation& now) {
     const int left = target_samples(job.scene.render, now) - samples;
     now.pass = std::clamp(static_cast<int>(pass_seconds / per_sample), 1, std::max(left, 1));
   }
-  // The first image of a small scene is not cancelled, so that something is shown however fast edits come.
+  // The first image of a small scene is not cancelled, so that something is shown however fast edits come; for a large
+  // one that is the preview.
   const bool first_image = samples == 0 && !job.preview;
   const Clock::time_point start = Clock::now();
   const bool done =
@@ -222,7 +226,7 @@ void Session::render_some(const Job& job, Accumulation& now) {
   now.seconds += seconds_since(start);
   if (!done) return;
   now.pass = 0;
-  now.relmse_estimate = relmse_estimate(now.film);
+  if (!unwanted(job)) now.relmse_estimate = relmse_estimate(now.film);
 }
 
 void Session::show(const Job& job, const Accumulation& now, bool with_error) {

@@ -60,6 +60,8 @@ class Session {
   void start(std::shared_ptr<const Job> job, bool cancel);
   void work();
   bool superseded_soon(const Job& job);
+  /// The next edit has come, and its preview is more urgent than another image of this job.
+  bool unwanted(const Job& job) const;
   void render_some(const Job& job, Accumulation& accumulation);
   void show_preview(const Job& job);
   void show(const Job& job, const Accumulation& accumulation, bool with_error);

@@ -8,6 +8,8 @@
 #include <array>
 #include <cfloat>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -16,11 +18,18 @@
 
 #include "film/file_bytes.h"
 #include "film/image_formats.h"
+#include "scene/scene_file.h"
 #include "viewer/controller.h"
 #include "viewer/screen.h"
 
 /// The window's contents drawn into memory, with a mouse that a test moves.
 namespace glimt::testing {
+
+/// The report's room, small, with the Oren-Nayar sphere at its roughness of 0.6.
+inline Scene small_room(int spp = 4) {
+  const std::vector<std::string> small{"image.width=96", "image.height=72", "render.spp=" + std::to_string(spp)};
+  return read_scene(std::filesystem::path(GLIMT_SCENES) / "report.toml", small);
+}
 
 class Offscreen {
  public:
@@ -69,8 +78,9 @@ class Offscreen {
     for (int i = 0; i < pictures; ++i) {
       controller_->poll();
       Edits edits;
-      screen_->draw(controller_->state(), scale_, edits);
+      screen_->lay_out(controller_->state(), scale_, edits);
       controller_->apply(edits);
+      screen_->paint();
     }
     glFinish();
   }
@@ -186,5 +196,13 @@ class Offscreen {
   std::unique_ptr<Controller> controller_;
   std::unique_ptr<Screen> screen_;
 };
+
+/// With GLIMT_SCREENSHOTS=FOLDER what is drawn is saved there, to be looked at.
+inline void save_screenshot(const Offscreen& window, const std::string& name) {
+  const char* folder = std::getenv("GLIMT_SCREENSHOTS");
+  if (folder == nullptr) return;
+  std::filesystem::create_directories(folder);
+  window.save(std::filesystem::path(folder) / (name + ".png"));
+}
 
 }  // namespace glimt::testing

@@ -18,13 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::Offscreen;
+using testing::small_room;
 
 constexpr int window_width = 1280, window_height = 800;
-
-Scene small_room(int spp = 4) {
-  const std::vector<std::string> small{"image.width=96", "image.height=72", "render.spp=" + std::to_string(spp)};
-  return read_scene(fs::path(GLIMT_SCENES) / "report.toml", small);
-}
 
 /// A folder of its own, which is the current one.
 class ViewerEdit : public ::testing::Test {
@@ -330,7 +326,7 @@ TEST_F(ViewerEdit, SavesAndOpensByTheSheets) {
 
 TEST_F(ViewerEdit, HintGoesWithTheFirstDoing) {
   Offscreen window(small_room(), window_width, window_height);
-  window.controller().recall({}, {}, true, "");
+  window.controller().recall({}, {}, {}, true, "");
   ASSERT_TRUE(window.draw_until_finished());
   EXPECT_TRUE(window.state().hint);
   click(window, {48, 70});

@@ -19,15 +19,10 @@ namespace glimt {
 namespace {
 
 using testing::Offscreen;
+using testing::small_room;
 
 constexpr int image_width = 96, image_height = 72, zoom = 6;
 constexpr int window_width = image_width * zoom + 352, window_height = image_height * zoom + 400;
-
-/// The report's room, small, with the Oren-Nayar sphere at its roughness of 0.6.
-Scene small_room(int spp = 4) {
-  const std::vector<std::string> small{"image.width=96", "image.height=72", "render.spp=" + std::to_string(spp)};
-  return read_scene(std::filesystem::path(GLIMT_SCENES) / "report.toml", small);
-}
 
 std::size_t sphere_index(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
@@ -83,6 +78,22 @@ TEST(Viewer, ShowsTheRenderedPicturePixelByPixel) {
   const auto shown = picture(window);
   EXPECT_EQ(shown, expected_picture(window.state()));
   EXPECT_GT(std::set(shown.begin(), shown.end()).size(), 500U) << "a picture of the room has many colours";
+}
+
+// Whatever is in the framebuffer stays there.
+TEST(Viewer, PicturesThatLookTheSameArePaintedOnce) {
+  Offscreen window(small_room(), window_width, window_height);
+  ASSERT_TRUE(window.draw_until_finished());
+  const auto before = picture(window);
+  const std::vector<std::array<int, 3>> black(before.size());
+  ASSERT_NE(before, black);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  window.draw();
+  EXPECT_EQ(picture(window), black);
+  window.screen().forget_picture();
+  window.draw();
+  EXPECT_EQ(picture(window), before);
 }
 
 TEST(Viewer, ExposureBrightensWithoutRestart) {
@@ -303,14 +314,10 @@ void expect_fit(const Offscreen& window, const Layout& layout, float scale) {
   }
 }
 
-/// With GLIMT_SCREENSHOTS=FOLDER every panel is saved there, to be looked at.
 void save_screenshot(const Offscreen& window, const std::string& name, const Size& size) {
-  const char* folder = std::getenv("GLIMT_SCREENSHOTS");
-  if (folder == nullptr) return;
-  std::filesystem::create_directories(folder);
-  window.save(std::filesystem::path(folder) /
-              (name + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + "-" +
-               std::to_string(static_cast<int>(size.scale) * size.ratio) + (size.ratio > 1 ? "r.png" : ".png")));
+  testing::save_screenshot(window, name + "-" + std::to_string(size.width) + "x" + std::to_string(size.height) + "-" +
+                                       std::to_string(static_cast<int>(size.scale) * size.ratio) +
+                                       (size.ratio > 1 ? "r" : ""));
 }
 
 TEST_P(Fit, NothingOverlapsOrSticksOut) {

@@ -109,6 +109,38 @@ TEST(Display, ErrorIsOnALogarithmicColourScale) {
   }
 }
 
+/// CIE L*a*b* of an 8-bit sRGB colour, white point D65.
+std::array<double, 3> lab(const std::array<std::uint8_t, 3>& colour) {
+  std::array<double, 3> c{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double encoded = colour[i] / 255.0;
+    c[i] = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+  }
+  const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+  const double x = f((0.4124 * c[0] + 0.3576 * c[1] + 0.1805 * c[2]) / 0.9505),
+               y = f(0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]),
+               z = f((0.0193 * c[0] + 0.1192 * c[1] + 0.9505 * c[2]) / 1.089);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+// Equal ratios of error are to look equally different: CIE 1976 distances of 32 steps, and their lightness alone, which
+// is what remains in grey.
+TEST(Display, ColourScaleIsPerceptuallyEven) {
+  double least = 1e9, most = 0, least_grey = 1e9, most_grey = 0;
+  auto last = lab(scale_colour(0));
+  for (int i = 1; i <= 32; ++i) {
+    const auto now = lab(scale_colour(static_cast<float>(i) / 32));
+    const double step = std::hypot(now[0] - last[0], now[1] - last[1], now[2] - last[2]);
+    least = std::min(least, step);
+    most = std::max(most, step);
+    least_grey = std::min(least_grey, now[0] - last[0]);
+    most_grey = std::max(most_grey, now[0] - last[0]);
+    last = now;
+  }
+  EXPECT_LT(most, 1.5 * least);
+  EXPECT_LT(most_grey, 1.6 * least_grey);
+}
+
 TEST(Display, IsReadBackFromItsTexts) {
   const Display display{.exposure = -1.3, .tone = Tone::filmic, .view = View::samples};
   EXPECT_EQ(read_display(display_texts(display)), display);

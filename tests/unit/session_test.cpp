@@ -243,6 +243,27 @@ TEST(Session, CancelledPassIsNotLost) {
   EXPECT_EQ(first_difference(end->mean.rgb, render(compile(scene), 1000).mean().rgb), -1);
 }
 
+// An edit of a large scene does not wait for the estimate of the pass that it interrupts; it is made up for.
+TEST(Session, FilmsThatComeBackKnowTheirError) {
+  Session session;
+  Scene scene = small_scene(endless);
+  scene.image = {400, 300};  // has a preview
+  Scene other = scene;
+  other.spheres[0].radius = 1;
+  int samples = 2;
+  for (int i = 0; i < 8; ++i) {
+    const auto version = session.post(scene);
+    const FramePtr back =
+        wait_for(session, [=](const Frame& f) { return f.version == version && f.samples >= samples; });
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->relmse_estimate, relmse_estimate(render(compile(scene), back->samples)));
+    samples = back->samples;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5 + 3 * i));
+    const auto between = session.post(other);
+    ASSERT_TRUE(wait_for(session, [=](const Frame& f) { return f.version == between; }));
+  }
+}
+
 TEST(Session, FilmsAreKeptUpToSoManyBytes) {
   const Scene scene = small_scene(worth_keeping);
   const auto film = [&] { return render(compile(scene), worth_keeping); };
