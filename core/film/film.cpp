@@ -1,13 +1,10 @@
 #include "film/film.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 namespace glimt {
 namespace {
@@ -44,11 +41,6 @@ Image make_image(int width, int height, F f) {
 double reciprocal(int n) { return n > 0 ? 1.0 / n : 0.0; }
 
 }  // namespace
-
-void use_huge_pages(void* memory, std::size_t bytes) {
-  constexpr std::size_t page = 4096, huge_page = std::size_t{1} << 21;
-  if (std::size_t left = bytes; std::align(page, huge_page, memory, left)) madvise(memory, left, MADV_HUGEPAGE);
-}
 
 Film::Film(int width, int height, double max_radiance) : width_(width), height_(height) {
   // Within the range of float, with room for the fixed point on either side.

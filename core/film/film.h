@@ -3,11 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <span>
 #include <vector>
 
+#include "film/large_memory.h"
 #include "kernel/kernels.h"
 
 namespace glimt {
@@ -20,29 +19,6 @@ struct Image {
 
   float* pixel(int x, int y) { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
   const float* pixel(int x, int y) const { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
-};
-
-/// Asks for huge pages in new memory, where it is large enough and the system has them: to be given small ones, and to
-/// give them back, takes a film longer than a path through each pixel.
-void use_huge_pages(void* memory, std::size_t bytes);
-
-/// Memory that is zero without being written to, so that a large film is there at once and its pages come as they are
-/// needed.
-template <class T>
-struct ZeroedMemory {
-  using value_type = T;
-
-  T* allocate(std::size_t n) {
-    void* memory = std::calloc(n, sizeof(T));
-    if (memory == nullptr) throw std::bad_alloc();
-    use_huge_pages(memory, n * sizeof(T));
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t) { std::free(memory); }
-  void construct(T*) {}
-  void construct(T* place, const T& value) { *place = value; }
-
-  bool operator==(const ZeroedMemory&) const = default;
 };
 
 /// Sums of radiance per pixel in two independent halves: sample 2k + h of a pixel is sample k of half h. Sums are
