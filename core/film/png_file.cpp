@@ -1,18 +1,17 @@
+#include <stb_image_write.h>
 #include <zlib.h>
 
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <stdexcept>
-#include <vector>
 
 #include "film/image_formats.h"
 
-// Portable Network Graphics (PNG) Specification, W3C 2003: 5.3 chunk layout, 9 filtering, 11.2.2 IHDR,
-// 11.3.3.3 sRGB, 11.3.4.5 iTXt.
+// Portable Network Graphics (PNG) Specification, W3C 2003: 5.3 chunk layout, 11.3.3.3 sRGB, 11.3.4.5 iTXt.
 namespace glimt {
 namespace {
 
+constexpr std::size_t ihdr_end = 8 + 12 + 13;
 constexpr std::string_view text_type = "iTXt";
 
 std::string big_endian(std::uint32_t value) {
@@ -53,51 +52,25 @@ void read_text(std::string_view data, Metadata& metadata) {
   if (rest.starts_with(plain)) metadata[std::string(key)] = rest.substr(plain.size());
 }
 
-/// Every row as its difference from the mean of the pixels left and above (filter type 3), which suits noise best.
-std::string filtered(int width, int height, std::span<const std::uint8_t> rgb) {
-  const auto row = 3 * static_cast<std::size_t>(width);
-  const std::vector<std::uint8_t> none(row);
-  std::string bytes;
-  bytes.reserve((row + 1) * static_cast<std::size_t>(height));
-  const std::uint8_t* above = none.data();
-  for (const std::uint8_t* here = rgb.data(); here < rgb.data() + rgb.size(); here += row) {
-    bytes += '\3';
-    for (std::size_t i = 0; i < row; ++i) {
-      const int left = i < 3 ? 0 : here[i - 3];
-      bytes += static_cast<char>(here[i] - (left + above[i]) / 2);
-    }
-    above = here;
-  }
-  return bytes;
-}
-
-/// As a zlib stream. Noise has no repetitions that were worth looking for.
-std::string compressed(std::string bytes) {
-  z_stream stream{};
-  if (deflateInit2(&stream, 1, Z_DEFLATED, 15, 8, Z_RLE) != Z_OK) throw std::bad_alloc();
-  std::string packed(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
-
 }  // namespace
 
 std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb, const Metadata& metadata) {
   if ((std::int64_t{3} * width + 1) * height > std::numeric_limits<int>::max() / 2)
     throw std::runtime_error("the image is too large for a PNG; .exr and .pfm are not limited");
-  const std::string size =
-      big_endian(static_cast<std::uint32_t>(width)) + big_endian(static_cast<std::uint32_t>(height));
-  const std::string format("\x8\x2\0\0\0", 5);  // 8 bits, RGB
-  const std::string perceptual(1, '\0');
-  std::string bytes = std::string(png_signature) + chunk("IHDR", size + format) + chunk("sRGB", perceptual);
-  for (const auto& [key, text] : metadata) bytes += text_chunk(key, text);
-  return bytes + chunk("IDAT", compressed(filtered(width, height, rgb))) + chunk("IEND", "");
+  std::string bytes;
+  const auto append = [](void* context, void* data, int size) {
+    static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
+  // What suits noise: the filter by the mean of the pixels left and above, and no long search for repetitions. The settings
+  // are globals, but everyone sets them alike.
+  stbi_write_force_png_filter = 3;
+  stbi_write_png_compression_level = 5;
+  if (!stbi_write_png_to_func(append, &bytes, width, height, 3, rgb.data(), 3 * width)) throw std::bad_alloc();
+
+  const char perceptual = 0;
+  std::string extra = chunk("sRGB", {&perceptual, 1});
+  for (const auto& [key, text] : metadata) extra += text_chunk(key, text);
+  return bytes.insert(ihdr_end, extra);
 }
 
 Metadata decode_png_metadata(std::string_view bytes) {
