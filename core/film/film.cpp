@@ -1,13 +1,10 @@
 #include "film/film.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 namespace glimt {
 namespace {
@@ -45,11 +42,6 @@ double reciprocal(int n) { return n > 0 ? 1.0 / n : 0.0; }
 
 }  // namespace
 
-void use_huge_pages(void* memory, std::size_t bytes) {
-  constexpr std::size_t page = 4096, huge_page = std::size_t{1} << 21;
-  if (std::size_t left = bytes; std::align(page, huge_page, memory, left)) madvise(memory, left, MADV_HUGEPAGE);
-}
-
 Film::Film(int width, int height, double max_radiance) : width_(width), height_(height) {
   // Within the range of float, with room for the fixed point on either side.
   const double brightest =
@@ -81,20 +73,36 @@ void Film::add(int first_pixel, int half, std::span<const float> rgb) {
       }
 }
 
-void Film::add_unusual(std::uint64_t& sum, float value) {
+std::uint64_t Film::checked_units(float value) {
   if (!(value >= 0 && std::isfinite(value))) {
     count(invalid_);
-    return;
+    return 0;
   }
   const double scaled = value * scale_;  // a whole number from 2^24 units on
-  const std::uint64_t added = scaled < magic    ? units(value, scale_)
-                              : scaled < 0x1p63 ? static_cast<std::uint64_t>(scaled)
-                                                : largest_sum + 1;
-  if (added > largest_sum - sum) {
-    count(saturated_);
-    sum = largest_sum;
-  } else {
-    sum += added;
+  return scaled < magic ? units(value, scale_) : scaled < 0x1p63 ? static_cast<std::uint64_t>(scaled) : largest_sum + 1;
+}
+
+void Film::add_unusual(std::uint64_t& sum, float value) {
+  const std::uint64_t added = checked_units(value);
+  if (added > largest_sum - sum) count(saturated_);
+  sum = std::min(sum + added, largest_sum);
+}
+
+void Film::add(int half, std::span<const Splat> splats) {
+  std::uint64_t* const first = sums_[static_cast<std::size_t>(half)].data();
+  const auto place = [&](std::size_t i) { return first + 3 * static_cast<std::size_t>(splats[i].pixel); };
+  constexpr std::size_t ahead = 8;  // pixels are far apart, and an addition waits for its own
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    if (i + ahead < splats.size()) __builtin_prefetch(place(i + ahead), 1);
+    std::uint64_t* sums = place(i);
+    for (const float value : {splats[i].r, splats[i].g, splats[i].b}) {
+      const std::uint64_t added = checked_units(value);
+      const std::atomic_ref sum(*sums++);
+      std::uint64_t before = sum.load(std::memory_order_relaxed);
+      while (!sum.compare_exchange_weak(before, std::min(before + added, largest_sum), std::memory_order_relaxed)) {
+      }
+      if (added > largest_sum - before) count(saturated_);
+    }
   }
 }
 

@@ -3,10 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <span>
 #include <vector>
+
+#include "film/large_memory.h"
+#include "kernel/kernels.h"
 
 namespace glimt {
 
@@ -18,29 +19,6 @@ struct Image {
 
   float* pixel(int x, int y) { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
   const float* pixel(int x, int y) const { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
-};
-
-/// Asks for huge pages in new memory, where it is large enough and the system has them: to be given small ones, and to
-/// give them back, takes a film longer than a path through each pixel.
-void use_huge_pages(void* memory, std::size_t bytes);
-
-/// Memory that is zero without being written to, so that a large film is there at once and its pages come as they are
-/// needed.
-template <class T>
-struct ZeroedMemory {
-  using value_type = T;
-
-  T* allocate(std::size_t n) {
-    void* memory = std::calloc(n, sizeof(T));
-    if (memory == nullptr) throw std::bad_alloc();
-    use_huge_pages(memory, n * sizeof(T));
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t) { std::free(memory); }
-  void construct(T*) {}
-  void construct(T* place, const T& value) { *place = value; }
-
-  bool operator==(const ZeroedMemory&) const = default;
 };
 
 /// Sums of radiance per pixel in two independent halves: sample 2k + h of a pixel is sample k of half h. Sums are
@@ -66,6 +44,9 @@ class Film {
   void add(int first_pixel, int half, std::span<const float> rgb);
   /// The same for one pixel.
   void add(int pixel, int half, float r, float g, float b) { add(pixel, half, std::array{r, g, b}); }
+
+  /// Adds to what pixels have already of a sample of that half, from any thread and in any order.
+  void add(int half, std::span<const Splat> splats);
 
   /// Counters that are 0 in a sound render.
   std::uint64_t invalid() const { return invalid_; }
@@ -97,6 +78,8 @@ class Film {
   double radiance(std::uint64_t sum) const {
     return static_cast<double>(static_cast<std::int64_t>(sum)) * (1 / scale_);
   }
+  /// In units of the fixed point, above the largest sum where it does not fit; counts what is no radiance.
+  std::uint64_t checked_units(float value);
   void add_unusual(std::uint64_t& sum, float value);
 
   int width_ = 0;

@@ -61,6 +61,12 @@ std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb,
   const auto append = [](void* context, void* data, int size) {
     static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
   };
+  // What suits noise: the filter by the mean of the pixels left and above, and no long search for repetitions.
+  [[maybe_unused]] static const bool chosen = [] {
+    stbi_write_force_png_filter = 3;
+    stbi_write_png_compression_level = 5;
+    return true;
+  }();
   if (!stbi_write_png_to_func(append, &bytes, width, height, 3, rgb.data(), 3 * width)) throw std::bad_alloc();
 
   const char perceptual = 0;

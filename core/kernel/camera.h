@@ -38,6 +38,7 @@ class PathSource {
  public:
   virtual ~PathSource() = default;
   virtual Vec3<F> origin() const = 0;        ///< of all first rays, compiled space
+  virtual int paths() const = 0;             ///< all of them; numbered from 0
   virtual bool exhausted() const = 0;        ///< every path has been put into a queue
   virtual void refill(PathQueue<F>& q) = 0;  ///< moves what is left in the queue to its front and fills the rest
 };
@@ -53,7 +54,8 @@ class CameraRays final : public PathSource<F> {
         y_(block.y0),
         sample_(static_cast<std::int32_t>(block.first_sample)) {}
 
-  Vec3<F> origin() const override { return vec(scene_.camera.eye); }
+  Vec3<F> origin() const override { return broadcast<F>(scene_.camera.eye); }
+  int paths() const override { return block_.paths(); }
   bool exhausted() const override { return next_path_ >= block_.paths(); }
 
   void refill(PathQueue<F>& q) override {
@@ -68,8 +70,6 @@ class CameraRays final : public PathSource<F> {
   }
 
  private:
-  static Vec3<F> vec(const std::array<float, 3>& v) { return {F(v[0]), F(v[1]), F(v[2])}; }
-
   void generate(PathQueue<F>& q, int place) {
     using I = Int<F>;
     using U = Uint<F>;
@@ -96,7 +96,8 @@ class CameraRays final : public PathSource<F> {
     const F x = to_float(px) + in_pixel.u;
     const F y = to_float(py) + in_pixel.v;
     const Vec3<F> direction =
-        normalize(fma(vec(scene_.camera.right), x, fma(vec(scene_.camera.down), y, vec(scene_.camera.corner))));
+        normalize(fma(broadcast<F>(scene_.camera.right), x,
+                      fma(broadcast<F>(scene_.camera.down), y, broadcast<F>(scene_.camera.corner))));
     store(direction.x, q.direction_x.data() + place);
     store(direction.y, q.direction_y.data() + place);
     store(direction.z, q.direction_z.data() + place);
@@ -139,6 +140,7 @@ class GivenRay final : public PathSource<F> {
     auto component = [&](std::size_t k) { return F(static_cast<float>(path_.origin[k] - scene_.origin[k])); };
     return {component(0), component(1), component(2)};
   }
+  int paths() const override { return 1; }
   bool exhausted() const override { return used_; }
 
   void refill(PathQueue<F>& q) override {

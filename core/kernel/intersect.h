@@ -37,11 +37,6 @@ struct Hit {
 namespace detail {
 
 template <class F>
-Vec3<F> broadcast(float x, float y, float z) {
-  return {F(x), F(y), F(z)};
-}
-
-template <class F>
 void take(Hit<F>& hit, const Mask<F>& closer, F t, std::int32_t surface) {
   hit.t = select(closer, t, hit.t);
   hit.surface = select(closer, Int<F>(surface), hit.surface);
@@ -218,13 +213,13 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
 }
 
 /// Whether something lies between a ray's origin, which is on no glass, and the point of a lamp at `distance`. The
-/// surfaces from `first` to `last` are the lamp's own and do not count.
-template <class F, Features features>
+/// surfaces from `first` to `last` are the lamp's own and do not count. `to_eye`: the point is the eye, and all do.
+template <class F, Features features, bool to_eye = false>
 Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<F> first, Int<F> last) {
   using namespace detail;
   Mask<F> hidden = F(1.0f) < F(0.0f);
   // A single piece of a lamp need not be tested at all, which spares the others the question whose they are.
-  const bool one = features.one_parallelogram || scene.lamps.rows() == 1;
+  const bool one = !to_eye && (features.one_parallelogram || scene.lamps.rows() == 1);
   const auto only = one ? std::bit_cast<std::int32_t>(scene.lamps[LampColumn::first_surface][0]) : -1;
   auto hide = [&](const Mask<F>& blocks, std::int32_t surface) {
     if (one) {
@@ -255,7 +250,7 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
   }
   for (const SphereShape& sphere : scene.glass_spheres) {
     const F t = glass_sphere_t(sphere, ray);
-    hidden = hidden | ((t > F(0.0f)) & (t < distance));
+    hide((t > F(0.0f)) & (t < distance), sphere.surface);
   }
   if (!features.rare) return hidden;
   for (const TriangleShape& triangle : scene.triangles) {

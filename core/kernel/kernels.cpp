@@ -14,6 +14,14 @@ void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, floa
   }
 }
 
+void trace_light(const CompiledScene& scene, const LightBlock& block, Lanes lanes, std::vector<Splat>& splats) {
+  if (lanes == Lanes::scalar) {
+    trace_light_block<float>(scene, block, splats);
+  } else {
+    trace_light_block<KernelLanes>(scene, block, splats);
+  }
+}
+
 Rgb trace_ray(const CompiledScene& scene, const GivenPath& path, Lanes lanes) {
   return lanes == Lanes::scalar ? trace_given_ray<float>(scene, path) : trace_given_ray<KernelLanes>(scene, path);
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "scene/compiled_scene.h"
 
@@ -26,6 +27,22 @@ struct PathBlock {
 /// Radiance of every path of the block, into rgb[3 * paths()]: sample by sample, in each row by row. A path's value is
 /// a pure function of (scene, seed, pixel, sample): the same for every block it is in and every lane width.
 void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, float* rgb);
+
+/// Some of the light paths of one pass: those that belong to one sample of every pixel.
+struct LightBlock {
+  int first_path = 0, paths = 0;  ///< of CompiledScene::light_paths
+  std::uint32_t sample = 0;
+};
+
+/// What a light path adds to one sample of a pixel.
+struct Splat {
+  std::int32_t pixel;
+  float r, g, b;  ///< radiance, W/(m^2 sr)
+};
+
+/// Appends the splats of the block's light paths; each path's are a pure function of (scene, seed, sample, path). The
+/// sum over a pass is what camera paths of that sample, as trace() traces them, leave out.
+void trace_light(const CompiledScene& scene, const LightBlock& block, Lanes lanes, std::vector<Splat>& splats);
 
 /// A path whose first ray is not the camera's.
 struct GivenPath {

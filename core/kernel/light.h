@@ -40,21 +40,32 @@ struct LampRow {
   }
 };
 
-/// A lamp chosen in proportion to its power by the alias method.
+/// A row of a table of `count`, by the alias method.
 template <class F>
-Int<F> choose_lamp(const CompiledScene& scene, F u) {
-  const int count = scene.lamps.rows();
+Int<F> choose_row(const float* alias_threshold, const float* alias_other, int count, F u) {
   const F place = u * F(static_cast<float>(count));
   const F last(static_cast<float>(count - 1));
   const Int<F> entry = to_int(min(place, last));
   const F rest = place - to_float(entry);
-  const Mask<F> keep = rest < lookup(scene.lamps[LampColumn::alias_threshold], entry);
-  return select(keep, entry, as_int(lookup(scene.lamps[LampColumn::alias_other], entry)));
+  const Mask<F> keep = rest < lookup(alias_threshold, entry);
+  return select(keep, entry, as_int(lookup(alias_other, entry)));
 }
 
-/// A point of a flat lamp, uniform by area (the report's eq. 15): pdf_w = distance^2 / (area cos).
+/// A lamp in proportion to its power.
+template <class F>
+Int<F> choose_lamp(const CompiledScene& scene, F u) {
+  return choose_row(scene.lamps[LampColumn::alias_threshold], scene.lamps[LampColumn::alias_other], scene.lamps.rows(),
+                    u);
+}
+
+template <class F>
+struct SurfacePoint {
+  Vec3<F> point, normal;
+};
+
+/// A point of a flat lamp, uniform by area.
 template <class F, bool one>
-LampSample<F> sample_flat_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v, bool triangles) {
+SurfacePoint<F> flat_lamp_point(const LampRow<F, one>& lamp, F u, F v, bool triangles) {
   F a = u, b = v;
   if (triangles) {
     // The square folded on its diagonal is the triangle.
@@ -63,13 +74,56 @@ LampSample<F> sample_flat_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from,
     a = select(fold, F(1.0f) - a, a);
     b = select(fold, F(1.0f) - b, b);
   }
-  const Vec3<F> p =
-      fma(lamp.vector(LampColumn::e1_x), a, fma(lamp.vector(LampColumn::e2_x), b, lamp.vector(LampColumn::p_x)));
-  const Vec3<F> way = p - from;
+  return {fma(lamp.vector(LampColumn::e1_x), a, fma(lamp.vector(LampColumn::e2_x), b, lamp.vector(LampColumn::p_x))),
+          lamp.vector(LampColumn::normal_x)};
+}
+
+/// A point of a spherical lamp, uniform by area.
+template <class F, bool one>
+SurfacePoint<F> sphere_lamp_point(const LampRow<F, one>& lamp, F u, F v) {
+  const Vec3<F> normal = uniform_sphere(u, v);
+  return {fma(normal, lamp[LampColumn::e1_x], lamp.vector(LampColumn::p_x)), normal};
+}
+
+/// A point of any lamp, uniform by area.
+template <class F, bool one>
+SurfacePoint<F> lamp_point(const LampRow<F, one>& lamp, F u, F v) {
+  const auto has = [&](LampShape s) { return lamp.scene.has_lamp_shape[static_cast<std::size_t>(s)]; };
+  const SurfacePoint<F> flat = flat_lamp_point(lamp, u, v, has(LampShape::triangle));
+  if (!has(LampShape::sphere) && !has(LampShape::sphere_by_area)) return flat;
+  const SurfacePoint<F> round = sphere_lamp_point(lamp, u, v);
+  const Int<F> shape = as_int(lamp[LampColumn::shape]);
+  const Mask<F> sphere = equal(shape, Int<F>(static_cast<int>(LampShape::sphere))) |
+                         equal(shape, Int<F>(static_cast<int>(LampShape::sphere_by_area)));
+  return {select(sphere, round.point, flat.point), select(sphere, round.normal, flat.normal)};
+}
+
+/// Over inverse_choice, the 1 / pdf_a of these points: lamps that light sampling chooses points of by solid angle have
+/// only their choice in inverse_choice.
+template <class F, bool one>
+F area_left_out(const LampRow<F, one>& lamp) {
+  const auto has = [&](LampShape s) { return lamp.scene.has_lamp_shape[static_cast<std::size_t>(s)]; };
+  const auto is = [&](LampShape s) {
+    return equal(as_int(lamp[LampColumn::shape]), Int<F>(static_cast<std::int32_t>(s)));
+  };
+  F area(1.0f);
+  if (has(LampShape::rectangle))
+    area = select(is(LampShape::rectangle), lamp[LampColumn::length_1] * lamp[LampColumn::length_2], area);
+  if (has(LampShape::sphere)) {
+    const F radius = lamp[LampColumn::e1_x];
+    area = select(is(LampShape::sphere), F(4 * std::numbers::pi_v<float>) * (radius * radius), area);
+  }
+  return area;
+}
+
+/// How `from` sees a point that is uniform by area (the report's eq. 15): pdf_w = distance^2 / (area cos).
+template <class F, bool one>
+LampSample<F> see_point(const LampRow<F, one>& lamp, const Vec3<F>& from, const SurfacePoint<F>& at) {
+  const Vec3<F> way = at.point - from;
   const F distance2 = dot(way, way);
   const F inverse = inverse_sqrt(distance2);
   const Vec3<F> direction = way * inverse;
-  const F minus_cos_lamp = dot(direction, lamp.vector(LampColumn::normal_x));
+  const F minus_cos_lamp = dot(direction, at.normal);
   const F inverse_pdf = max(F(0.0f) - minus_cos_lamp, F(0.0f)) * (inverse * inverse);
   return {direction,
           distance2 * inverse,
@@ -78,6 +132,12 @@ LampSample<F> sample_flat_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from,
           lamp[LampColumn::inverse_choice],
           Int<F>(0),
           Int<F>(0)};
+}
+
+/// A point of a flat lamp, uniform by area.
+template <class F, bool one>
+LampSample<F> sample_flat_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v, bool triangles) {
+  return see_point(lamp, from, flat_lamp_point(lamp, u, v, triangles));
 }
 
 /// How a point in front of a rectangle sees it: Urena, Fajardo and King, "An area-preserving parametrization for
@@ -150,54 +210,73 @@ F cone_one_minus_cos(F sin2) {
   return sin2 * reciprocal(F(1.0f) + sqrt(F(1.0f) - sin2));
 }
 
-/// A direction in the cone in which a sphere is seen, uniform by solid angle: pdf_w = 1 / (2 pi (1 - cos(theta_max))).
-template <class F, bool one>
-LampSample<F> sample_sphere_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
-  const Vec3<F> to_centre = lamp.vector(LampColumn::p_x) - from;
-  const F radius = lamp[LampColumn::e1_x];
+/// The cone in which a sphere is seen.
+template <class F>
+struct SphereCone {
+  Vec3<F> axis;        ///< unit, to the centre
+  F distance, radius;  ///< to the centre, metres; NaN at the centre
+  F one_minus_cos_max;
+  F solid_angle;
+  Mask<F> outside;  ///< the sphere is seen from outside
+
+  /// A direction, and the distance to the sphere along it.
+  struct Sample {
+    Vec3<F> direction;
+    F distance;
+  };
+
+  /// Uniform by solid angle.
+  Sample sample(F u, F v) const {
+    const F one_minus_cos = u * one_minus_cos_max;
+    const F cos = F(1.0f) - one_minus_cos;
+    const F sin2 = one_minus_cos * (F(1.0f) + cos);
+    const F sin = sqrt(sin2);
+    // A frame about the axis (Duff et al., "Building an orthonormal basis, revisited", JCGT 2017).
+    const F sign = select(axis.z < F(0.0f), F(-1.0f), F(1.0f));
+    const F k = F(-1.0f) * reciprocal(sign + axis.z);
+    const F xy = axis.x * axis.y * k;
+    const Vec3<F> t1{fma(sign * axis.x, axis.x * k, F(1.0f)), sign * xy, F(0.0f) - sign * axis.x};
+    const Vec3<F> t2{xy, fma(axis.y, axis.y * k, sign), F(0.0f) - axis.y};
+    const SinCos<F> turn = sincos_turns(v);
+    const Vec3<F> direction = fma(t1, sin * turn.cos, fma(t2, sin * turn.sin, axis * cos));
+    const F half_chord = sqrt(radius * radius - distance * distance * sin2);
+    return {direction, max(fma(distance, cos, F(0.0f) - half_chord), F(0.0f))};
+  }
+};
+
+template <class F>
+SphereCone<F> cone_of_sphere(const Vec3<F>& to_centre, F radius) {
   const F d2 = dot(to_centre, to_centre);
   const F inverse_d = inverse_sqrt(d2);
   const F d = d2 * inverse_d;
-  const Vec3<F> axis = to_centre * inverse_d;
   const F sin_max = radius * inverse_d;
-  const F sin2_max = min(sin_max * sin_max, F(1.0f));
-  const F one_minus_cos_max = cone_one_minus_cos(sin2_max);
-  const F one_minus_cos = u * one_minus_cos_max;
-  const F cos = F(1.0f) - one_minus_cos;
-  const F sin2 = one_minus_cos * (F(1.0f) + cos);
-  const F sin = sqrt(sin2);
-  // A frame about the axis (Duff et al., "Building an orthonormal basis, revisited", JCGT 2017).
-  const F sign = select(axis.z < F(0.0f), F(-1.0f), F(1.0f));
-  const F k = F(-1.0f) * reciprocal(sign + axis.z);
-  const F xy = axis.x * axis.y * k;
-  const Vec3<F> t1{fma(sign * axis.x, axis.x * k, F(1.0f)), sign * xy, F(0.0f) - sign * axis.x};
-  const Vec3<F> t2{xy, fma(axis.y, axis.y * k, sign), F(0.0f) - axis.y};
-  const SinCos<F> turn = sincos_turns(v);
-  const Vec3<F> direction = fma(t1, sin * turn.cos, fma(t2, sin * turn.sin, axis * cos));
-  const F half_chord = sqrt(radius * radius - d2 * sin2);
-  const F inverse_pdf = select(d > radius, F(2.0f * std::numbers::pi_v<float>) * one_minus_cos_max, F(0.0f));
-  const F distance = max(fma(d, cos, F(0.0f) - half_chord), F(0.0f));
-  return {direction, distance, lamp.vector(LampColumn::weight_r), inverse_pdf, lamp[LampColumn::inverse_choice],
-          Int<F>(0), Int<F>(0)};
+  const F one_minus_cos_max = cone_one_minus_cos(min(sin_max * sin_max, F(1.0f)));
+  return {to_centre * inverse_d,
+          d,
+          radius,
+          one_minus_cos_max,
+          F(2.0f * std::numbers::pi_v<float>) * one_minus_cos_max,
+          d > radius};
+}
+
+/// A direction to a spherical lamp, uniform by solid angle: pdf_w = 1 / (2 pi (1 - cos(theta_max))).
+template <class F, bool one>
+LampSample<F> sample_sphere_lamp(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
+  const SphereCone<F> cone = cone_of_sphere(lamp.vector(LampColumn::p_x) - from, lamp[LampColumn::e1_x]);
+  const auto [direction, distance] = cone.sample(u, v);
+  return {direction,
+          distance,
+          lamp.vector(LampColumn::weight_r),
+          select(cone.outside, cone.solid_angle, F(0.0f)),
+          lamp[LampColumn::inverse_choice],
+          Int<F>(0),
+          Int<F>(0)};
 }
 
 /// A point of a sphere, uniform by area: half of them are on its far side.
 template <class F, bool one>
 LampSample<F> sample_sphere_by_area(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
-  const F radius = lamp[LampColumn::e1_x];
-  const Vec3<F> normal = uniform_sphere(u, v);
-  const Vec3<F> way = fma(normal, radius, lamp.vector(LampColumn::p_x) - from);
-  const F distance2 = dot(way, way);
-  const F inverse = inverse_sqrt(distance2);
-  const Vec3<F> direction = way * inverse;
-  const F inverse_pdf = max(F(0.0f) - dot(direction, normal), F(0.0f)) * (inverse * inverse);
-  return {direction,
-          distance2 * inverse,
-          lamp.vector(LampColumn::weight_r),
-          inverse_pdf,
-          lamp[LampColumn::inverse_choice],
-          Int<F>(0),
-          Int<F>(0)};
+  return see_point(lamp, from, sphere_lamp_point(lamp, u, v));
 }
 
 /// The table's row decides how the lamp is sampled.

@@ -2,9 +2,11 @@
 
 #include <bit>
 
-#include "kernel/bsdf.h"
 #include "kernel/camera.h"
-#include "kernel/intersect.h"
+#include "kernel/connect.h"
+#include "kernel/found_chain.h"
+#include "kernel/pinhole.h"
+#include "kernel/shading.h"
 #include "kernel/trace.h"
 
 /// The path loop: one path a lane, no recursion. A lane whose path has ended takes the next path at once.
@@ -14,26 +16,17 @@ namespace glimt {
 template <class F>
 struct PathState {
   Ray<F> ray;
-  Vec3<F> throughput;   ///< product of bsdf cos / pdf so far, radiance to radiance
-  Vec3<F> radiance;     ///< gathered so far, W/(m^2 sr)
-  F ior2;               ///< square of the refractive index here over that at the camera; 1 without glass
-  Mask<F> sees_lamps;   ///< a lamp that is hit counts in full
-  Mask<F> had_diffuse;  ///< the path has met a diffuse surface
-  F pdf_w;              ///< with which a diffuse surface chose the direction, if it was the last; else 0
-  PathKey<F> key;       ///< its dimension 0 is the first of the next hit
-  Int<F> depth;         ///< surfaces hit before
-  Int<F> path;          ///< number in the block, or -1 for a lane without work
-};
-
-/// What a hit point looks like.
-template <class F>
-struct Shading {
-  Vec3<F> point;
-  Vec3<F> normal;  ///< unit, to the side the ray comes from
-  F cos_o;         ///< of the ray's way back to the normal
-  Mask<F> front;   ///< the side of the surface's own normal
-  Int<F> surface;
-  Int<F> kind;
+  Vec3<F> throughput;  ///< product of bsdf cos / pdf so far, radiance to radiance
+  Vec3<F> radiance;    ///< gathered so far, W/(m^2 sr)
+  F ior2;              ///< square of the refractive index here over that at the camera; 1 without glass
+  F lamp_share;        ///< of the radiance of a lamp that is hit next: what counts, where MIS does not say so
+  F caustic_share;     ///< the same for lamps that are hit from a mirror or glass
+  F pdf_w;             ///< with which a diffuse surface chose the direction, if it was the last; else 0
+  FoundChain<F> chain;
+  Mask<F> connects;  ///< diffuse surfaces are connected to lamps over spheres: the first surface was specular
+  PathKey<F> key;    ///< its dimension 0 is the first of the next hit
+  Int<F> depth;      ///< surfaces hit before
+  Int<F> path;       ///< number in the block, or -1 for a lane without work
 };
 
 template <class F, Features features>
@@ -44,14 +37,18 @@ class PathTracer {
   using V = Vec3<F>;
 
  public:
-  PathTracer(const CompiledScene& scene, float* rgb)
+  /// `light_traced`: the paths are the camera's, and light paths do their part.
+  PathTracer(const CompiledScene& scene, float* rgb, bool light_traced)
       : scene_(scene),
-        surfaces_(scene.surfaces[Column{}]),
+        surfaces_(scene),
         rgb_(rgb),
+        light_traced_(light_traced),
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
-        roulette_begin_(scene.settings.roulette == Roulette::constant ? trapped_depth : scene.settings.roulette_depth),
-        next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0),
-        mis_(next_event_ && choices().mis == Mis::on) {}
+        next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0 &&
+                    choices().caustics != Caustics::only),
+        mis_(next_event_ && choices().mis == Mis::on),
+        connects_(!scene.chain_spheres.empty()),
+        connector_(scene) {}
 
   /// Traces all paths of the source and writes each one's radiance to rgb[3 * its number].
   void run(PathSource<F>& source) {
@@ -59,18 +56,23 @@ class PathTracer {
     PathState<F> s{};
     s.path = I(-1);
     s.ior2 = F(1.0f);
-    s.sees_lamps = s.had_diffuse = F(1.0f) < F(0.0f);
+    s.lamp_share = s.caustic_share = F(0.0f);
+    s.connects = F(1.0f) < F(0.0f);
+    s.chain = {I(chain_none), F(0.0f), F(0.0f)};
+    if (connects_) connector_.begin(source.paths());
     const V origin = source.origin();
     s.ray = {origin, {F(0.0f), F(0.0f), F(1.0f)}, I(-1)};
     for (;;) {
       const M idle = less(s.path, I(0));
       if (any(idle)) {
         begin_paths(source, origin, queue, s, idle);
-        if (!any(less(I(-1), s.path))) return write_out();
+        if (!any(less(I(-1), s.path))) break;
       }
       const M ended = step(s) & less(I(-1), s.path);
       finish(s, ended);
     }
+    write_out();
+    if (connects_) connector_.finish(rgb_);
   }
 
  private:
@@ -93,44 +95,70 @@ class PathTracer {
     s.throughput = select(idle, V::all(F(1.0f)), s.throughput);
     s.radiance = select(idle, V::all(F(0.0f)), s.radiance);
     if (scene_.has_glass) s.ior2 = select(idle, F(1.0f), s.ior2);
-    s.sees_lamps = s.sees_lamps | idle;
-    s.had_diffuse = s.had_diffuse & !idle;
+    const F share(choices().caustics == Caustics::only ? 0.0f : 1.0f);
+    s.lamp_share = select(idle, share, s.lamp_share);
+    s.caustic_share = select(idle, share, s.caustic_share);
     s.depth = select(idle, I(0), s.depth);
+    if (connects_) {
+      s.chain.stage = select(idle, I(chain_none), s.chain.stage);
+      s.connects = s.connects | idle;
+    }
     q.next += wanted;
   }
 
   /// One surface for every lane; returns the lanes whose paths end there.
-  M step(PathState<F>& s) const {
+  M step(PathState<F>& s) {
     const Hit<F> hit = closest_hit<F, features>(scene_, s.ray);
     const M missed = !(hit.t < F(std::numeric_limits<float>::infinity()));
-    const Shading<F> at = shade(s.ray, hit);
+    const Shading<F> at = surfaces_.shade(s.ray, hit);
     const M light = equal(at.kind, I(kind_light));
     M ended = missed | light;
 
     add_emission(s, at, hit.t, light, missed);
     const M diffuse = equal(at.kind, I(kind_diffuse)) & !missed;
     const M glass = equal(at.kind, I(kind_glass)) & !missed;
-    s.throughput = s.throughput * reflectance(at);
+    s.throughput = s.throughput * surfaces_.reflectance(at);
     V direction = s.ray.direction;
     const Point2<F> uv = pair(s, HitDimension::direction_u);
+    M enters = F(1.0f) < F(0.0f);
     if (any(diffuse)) scatter_diffuse(s, at, diffuse, uv, direction);
     if (scene_.has_mirror) {
       const M mirror = equal(at.kind, I(kind_mirror));
-      // A hollow mirror multiplies what the length is off at every hit.
-      direction = select(mirror, normalize(reflect(s.ray.direction, at.normal, at.cos_o)), direction);
+      direction = select(mirror, surfaces_.mirrored(s.ray.direction, at), direction);
     }
-    if (scene_.has_glass && any(glass)) scatter_glass(s, at, glass, uv.u, direction);
+    if (scene_.has_glass && any(glass)) {
+      const GlassScatter<F> scatter = surfaces_.scatter_glass(s.ray.direction, at, uv.u);
+      direction = select(glass, scatter.direction, direction);
+      // Radiance in the medium behind is eta^2 times as large as on this side, so this much of it arrives.
+      enters = glass & scatter.enters;
+      s.throughput = s.throughput * select(enters, scatter.inverse_eta2, F(1.0f));
+      s.ior2 = s.ior2 * select(enters, scatter.eta2, F(1.0f));
+    }
+    if (connects_) s.chain.follow(surfaces_, s.ray, at, hit.t, diffuse & s.connects, enters);
+    share_caustics(s, at, hit.t, diffuse);
     s.ray = {at.point, direction, at.surface};
-    s.sees_lamps = next_event_ ? !diffuse : M(F(0.0f) < F(1.0f));
     if (mis_) s.pdf_w = select(diffuse, s.pdf_w, F(0.0f));
-    if (choices().caustics == Caustics::off) s.sees_lamps = s.sees_lamps & (diffuse | !s.had_diffuse);
-    s.had_diffuse = s.had_diffuse | diffuse;
     if (choices().max_depth > 0) ended = ended | !may_go_on(s);
     const F brightest = max_component(s.throughput);
     ended = ended | !(brightest > F(0.0f)) | roulette(s, brightest, diffuse);
     s.key = skip_dimensions<F>(s.key, hit_block_);
     s.depth = s.depth + I(1);
     return ended;
+  }
+
+  /// What counts of the lamps that the path finds by chance from here on.
+  void share_caustics(PathState<F>& s, const Shading<F>& at, F distance, const M& diffuse) const {
+    const Caustics caustics = choices().caustics;
+    if (caustics == Caustics::off) s.caustic_share = select(diffuse, F(0.0f), s.caustic_share);
+    if (caustics == Caustics::only)
+      s.caustic_share = select(diffuse & !(s.caustic_share > F(0.0f)), F(1.0f), s.caustic_share);
+    if (light_traced_) {
+      const F chance =
+          F(1.0f) - light_path_share(scene_, pinhole_importance(scene_, s.ray.direction, distance, at.cos_o));
+      s.caustic_share = select(diffuse & equal(s.depth, I(0)), chance, s.caustic_share);
+    }
+    const bool lamps = !next_event_ && caustics != Caustics::only;
+    s.lamp_share = select(diffuse, F(lamps ? 1.0f : 0.0f), s.caustic_share);
   }
 
   /// Where no limit of depth forbids another surface.
@@ -158,17 +186,6 @@ class PathTracer {
     done_ = 0;
   }
 
-  F value(Column column, const Shading<F>& at) const {
-    if constexpr (features.small_table) {
-      return lookup_small(surfaces_ + static_cast<std::ptrdiff_t>(column) * small_stride, at.surface);
-    } else {
-      return lookup(scene_.surfaces[column], at.surface);
-    }
-  }
-  V vector(Column first, const Shading<F>& at) const {
-    const int c = static_cast<int>(first);
-    return {value(first, at), value(static_cast<Column>(c + 1), at), value(static_cast<Column>(c + 2), at)};
-  }
   /// Random numbers of a hit; of several, number `k` of `count`.
   Point2<F> pair(const PathState<F>& s, HitDimension dimension, int count = 1, int k = 0) const {
     return random_pair<F>(choices().sampler, s.key, LatticePlace<F>::of(s.depth + I(1)),
@@ -179,74 +196,59 @@ class PathTracer {
                             static_cast<std::uint32_t>(dimension), count, k);
   }
 
-  V reflectance(const Shading<F>& at) const { return vector(Column::reflectance_r, at); }
-
-  Shading<F> shade(const Ray<F>& ray, const Hit<F>& hit) const {
-    Shading<F> at;
-    at.surface = hit.surface;
-    at.point = fma(ray.direction, hit.t, ray.origin);
-    const V n = vector(Column::normal_x, at);
-    const F inverse_radius = value(Column::inverse_radius, at);
-    at.normal = select(inverse_radius > F(0.0f), (at.point - n) * inverse_radius, n);
-    const F cos = dot(at.normal, ray.direction);
-    at.front = cos < F(0.0f);
-    at.normal = at.normal * select(at.front, F(1.0f), F(-1.0f));
-    at.cos_o = abs(cos);
-    at.kind = as_int(value(Column::kind, at));
-    return at;
-  }
-
   void add_emission(PathState<F>& s, const Shading<F>& at, F t, const M& light, const M& missed) const {
     M shines = light & at.front;
-    shines = shines & (mis_ ? s.sees_lamps | (s.pdf_w > F(0.0f)) : s.sees_lamps);
-    if (features.rare && scene_.has_glow) shines = shines | !light;
+    const M counts = s.lamp_share > F(0.0f);
+    shines = shines & (mis_ ? counts | (s.pdf_w > F(0.0f)) : counts);
+    if (features.rare && scene_.has_glow && choices().caustics != Caustics::only) shines = shines | !light;
     shines = shines & !missed;
     if ((!features.small_table || mis_) && !any(shines)) return;
-    V emission = select(shines, vector(Column::emission_r, at), V::all(F(0.0f)));
+    V emission = select(shines, surfaces_.vector(Column::emission_r, at), V::all(F(0.0f)));
     if (mis_) {
-      const I row = as_int(value(Column::lamp, at));
-      const M shared = light & !s.sees_lamps & less(I(-1), row);
+      const I row = as_int(surfaces_.value(Column::lamp, at));
+      const M shared = light & !counts & less(I(-1), row);
       const F q = s.pdf_w * lamp_inverse_pdf(scene_, select(shared, row, I(0)), s.ray.origin, t, at.cos_o);
       const F m(static_cast<float>(scene_.settings.shadow_rays));
       const F weight = max(fnma(m, reciprocal(q + m), F(1.0f)), F(0.0f));
       emission = emission * select(shared, weight, F(1.0f));
     }
+    if (light_traced_) emission = emission * select(light & counts, s.lamp_share, F(1.0f));
+    if (connects_) {
+      M chained = shines & light & s.chain.complete();
+      if (any(chained)) {
+        const I row = as_int(surfaces_.value(Column::lamp, at));
+        chained = chained & less(I(-1), row);
+        const F share = chance_share(scene_, surfaces_, s.chain, s.ray, at, select(chained, row, I(0)));
+        emission = emission * select(chained, share, F(1.0f));
+      }
+    }
     s.radiance = fma(s.throughput, emission, s.radiance);
   }
 
-  OrenNayar<F> oren_nayar(const Shading<F>& at) const {
-    return {value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
-            value(Column::oren_nayar_report, at) > F(0.5f)};
-  }
-
-  bool has_oren_nayar() const { return features.rare ? scene_.has_oren_nayar : features.oren_nayar; }
-  bool has_eon() const { return features.rare && scene_.has_eon; }
-
-  /// The BRDF over rho / pi.
-  V diffuse_factor(const Shading<F>& at, const V& wi, const V& wo, F cos_i) const {
-    const V rough = V::all(oren_nayar_factor(oren_nayar(at), wi, wo, cos_i, at.cos_o));
-    if (!has_eon()) return rough;
-    const Eon<F> eon{value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
-                     vector(Column::eon_multiple_r, at)};
-    return select(value(Column::eon, at) > F(0.5f), eon_factor(eon, wi, wo, cos_i, at.cos_o), rough);
-  }
-
   /// Next-event estimation, then a direction in proportion to the cosine. The throughput has the reflectance already.
-  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, const Point2<F>& uv,
-                       V& direction) const {
+  void scatter_diffuse(PathState<F>& s, const Shading<F>& at, const M& diffuse, const Point2<F>& uv, V& direction) {
     const V wo = s.ray.direction * F(-1.0f);
     if (next_event_) {
       const M asks = choices().max_depth > 0 ? diffuse & may_go_on(s) : diffuse;
       if (any(asks)) s.radiance = fma(s.throughput, direct_light(s, at, asks, wo), s.radiance);
     }
     const V wi = cosine_hemisphere(at.normal, uv.u, uv.v);
-    const bool rough = has_oren_nayar() || has_eon();
-    if (rough || mis_) {
+    const bool rough = surfaces_.has_rough();
+    if (rough || mis_ || connects_) {
       const F cos_i = dot(wi, at.normal);
       s.pdf_w = cos_i * F(std::numbers::inv_pi_v<float>);
-      if (rough) s.throughput = s.throughput * select(diffuse, diffuse_factor(at, wi, wo, cos_i), V::all(F(1.0f)));
+      if (connects_) connect(s, at, diffuse, wo);
+      if (rough)
+        s.throughput = s.throughput * select(diffuse, surfaces_.diffuse_factor(at, wi, wo, cos_i), V::all(F(1.0f)));
     }
     direction = select(diffuse, wi, direction);
+  }
+
+  void connect(PathState<F>& s, const Shading<F>& at, const M& diffuse, const V& wo) {
+    s.connects = s.connects & !(diffuse & equal(s.depth, I(0)));
+    s.chain.pdf_w = select(diffuse, s.pdf_w, s.chain.pdf_w);
+    const M mask = diffuse & s.connects & less(I(-1), s.path);
+    if (any(mask)) connector_.add({at, wo, s.throughput, s.key, s.depth, s.path}, mask);
   }
 
   /// Light that comes straight from the lamps, times the BRDF over the reflectance.
@@ -272,51 +274,34 @@ class PathTracer {
         weight = weight * (m * reciprocal(fma(there, lamp.inverse_pdf * lamp.inverse_choice, m)));
       }
       // Lanes that do not see the lamp may hold values that are no numbers.
-      if (has_eon()) {
-        const V factor = diffuse_factor(at, lamp.direction, wo, cos_i) * weight;
+      if (surfaces_.has_eon()) {
+        const V factor = surfaces_.diffuse_factor(at, lamp.direction, wo, cos_i) * weight;
         direct = fma(lamp.weight, select(seen, factor, V::all(F(0.0f))), direct);
       } else {
-        if (has_oren_nayar()) weight = weight * oren_nayar_factor(oren_nayar(at), lamp.direction, wo, cos_i, at.cos_o);
+        if (surfaces_.has_oren_nayar())
+          weight = weight * oren_nayar_factor(surfaces_.oren_nayar(at), lamp.direction, wo, cos_i, at.cos_o);
         direct = fma(lamp.weight, select(seen, weight, F(0.0f)), direct);
       }
     }
     return direct;
   }
 
-  /// Reflection or refraction, chosen by Fresnel, so both keep the throughput but for the square of the index.
-  void scatter_glass(PathState<F>& s, const Shading<F>& at, const M& glass, F u, V& direction) const {
-    const F ratio = value(Column::eta, at);
-    const F inverse = reciprocal(ratio);
-    const F eta = select(at.front, ratio, inverse);
-    const F inverse_eta = select(at.front, inverse, ratio);
-    const Dielectric<F> interface = fresnel(at.cos_o, eta, inverse_eta, value(Column::schlick, at) > F(0.5f));
-    const M reflected = u < interface.reflected;
-    const V mirrored = reflect(s.ray.direction, at.normal, at.cos_o);
-    const V refracted = refract(s.ray.direction, at.normal, at.cos_o, interface.cos_t, inverse_eta);
-    // Many in a row would let the length drift.
-    direction = select(glass, normalize(select(reflected, mirrored, refracted)), direction);
-    // Radiance in the medium behind is eta^2 times as large as on this side, so this much of it arrives.
-    const M enters = glass & !reflected;
-    s.throughput = s.throughput * select(enters, inverse_eta * inverse_eta, F(1.0f));
-    s.ior2 = s.ior2 * select(enters, eta * eta, F(1.0f));
-  }
-
   /// Ends paths at random and makes up for it in those that go on.
   M roulette(PathState<F>& s, F brightest, const M& diffuse) const {
     const bool constant = scene_.settings.roulette == Roulette::constant;
-    const M late = !less(s.depth, I(roulette_begin_));
-    const M plays = constant ? diffuse | late : late;
-    if (!any(plays)) return plays;
+    const M trapped = !less(s.depth, I(trapped_depth));
     // The square of the index is left out: it comes back when the path leaves the glass.
-    const F survival = constant ? F(constant_survival) : min(brightest * s.ior2, F(largest_survival));
+    const F share = brightest * s.ior2 * F(static_cast<float>(1 / scene_.settings.roulette_below));
+    const M late = (share < F(1.0f)) & !less(s.depth, I(scene_.settings.roulette_depth));
+    const M plays = trapped | (constant ? diffuse : late);
+    if (!any(plays)) return plays;
+    const F survival = constant ? F(constant_survival) : min(share, F(largest_survival));
     const M dies = plays & !(number(s, HitDimension::roulette) < survival);
     s.throughput = s.throughput * select(plays, reciprocal(survival), F(1.0f));
     return dies;
   }
 
-  /// The settings that the kernel may be compiled for; numbers among them are read at run time.
-  static constexpr Settings usual{};
-  const Settings& choices() const { return features.rare ? scene_.settings : usual; }
+  const Settings& choices() const { return settings_of<features>(scene_); }
 
   static constexpr float constant_survival = 0.75f;  ///< the report's
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
@@ -327,54 +312,37 @@ class PathTracer {
   template <class T>
   using DoneArray = std::array<T, done_capacity + 2 * lane_count<F>>;
 
-  static constexpr int small_stride = 32;  ///< of tables with up to 32 rows, so that columns are at fixed places
-
   const CompiledScene& scene_;
-  const float* surfaces_;
+  Surfaces<F, features> surfaces_;
   float* rgb_;
-  std::uint32_t hit_block_;      ///< dimensions of a hit
-  std::int32_t roulette_begin_;  ///< depth of the first hit at which every path plays roulette
+  bool light_traced_;
+  std::uint32_t hit_block_;  ///< dimensions of a hit
   bool next_event_;
   bool mis_;
+  bool connects_;
+  Connector<F, features> connector_;
 
   int done_ = 0;
   DoneArray<float> done_r_, done_g_, done_b_;
   DoneArray<std::int32_t> done_path_;
 };
 
-/// Whether PathTracer's `usual` settings are the scene's.
-inline bool has_usual_settings(const Settings& s) {
-  const Settings usual;
-  return s.light_sampling == usual.light_sampling && s.mis == usual.mis && s.sampler == usual.sampler &&
-         s.caustics == usual.caustics && s.max_depth == usual.max_depth;
-}
-
 template <class F>
-void trace_source(const CompiledScene& scene, PathSource<F>& source, float* rgb) {
-  const bool rare = scene.has_glow || !scene.triangles.empty() || !scene.shells.empty() || scene.room_hides_lamps ||
-                    scene.has_eon || !has_usual_settings(scene.settings) ||
-                    std::any_of(scene.solids.begin(), scene.solids.end(), [](const Solid& s) { return s.glass; });
-  const bool one = scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
-  if (rare || !one || scene.surfaces.rows() > small_table) {
-    PathTracer<F, Features{false, false, true, true}>(scene, rgb).run(source);
-  } else if (scene.has_oren_nayar) {
-    PathTracer<F, Features{true, true, true, false}>(scene, rgb).run(source);
-  } else {
-    PathTracer<F, Features{true, true, false, false}>(scene, rgb).run(source);
-  }
+void trace_source(const CompiledScene& scene, PathSource<F>& source, float* rgb, bool light_traced) {
+  with_features(scene, [&](auto features) { PathTracer<F, features()>(scene, rgb, light_traced).run(source); });
 }
 
 template <class F>
 void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb) {
   CameraRays<F> rays(scene, block);
-  trace_source<F>(scene, rays, rgb);
+  trace_source<F>(scene, rays, rgb, scene.light_paths > 0);
 }
 
 template <class F>
 Rgb trace_given_ray(const CompiledScene& scene, const GivenPath& path) {
   GivenRay<F> ray(scene, path);
   std::array<float, 3> rgb{};
-  trace_source<F>(scene, ray, rgb.data());
+  trace_source<F>(scene, ray, rgb.data(), false);
   return {rgb[0], rgb[1], rgb[2]};
 }
 

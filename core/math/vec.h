@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "math/twice.h"
 
 namespace glimt {
@@ -16,6 +18,16 @@ struct Vec3 {
   friend Vec3 operator*(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
   friend Vec3 operator*(const Vec3& a, F s) { return {a.x * s, a.y * s, a.z * s}; }
 };
+
+/// The same vector in every lane.
+template <class F>
+Vec3<F> broadcast(float x, float y, float z) {
+  return {F(x), F(y), F(z)};
+}
+template <class F>
+Vec3<F> broadcast(const std::array<float, 3>& v) {
+  return broadcast<F>(v[0], v[1], v[2]);
+}
 
 /// Never -0, so that a quotient by it has the sign that "parallel" needs.
 template <class F>

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int tile_size = 32;      ///< pixels, square
 constexpr int block_paths = 4096;  ///< paths a thread traces before it looks up; their radiance fits the cache
+constexpr int light_block_paths = 1024;
 
 /// Squares that cover the film. A thread has one to itself, so no two add to the same pixel.
 std::vector<PathBlock> tiles_of(const Film& film) {
@@ -41,38 +42,58 @@ Film make_film(const CompiledScene& scene) { return Film(scene.width, scene.heig
 bool render_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution,
                  const std::atomic<bool>* cancel, PassProgress* progress) {
   const std::vector<PathBlock> tiles = tiles_of(film);
+  const auto tile_count = static_cast<std::ptrdiff_t>(tiles.size());
+  const std::ptrdiff_t light_count = (scene.light_paths + light_block_paths - 1) / light_block_paths;
   const int threads = execution.threads > 0 ? execution.threads : hardware_threads();
   std::atomic<bool> stop{false};
-  PassProgress done(tiles.size(), 0);
+  PassProgress done(static_cast<std::size_t>(tile_count + light_count), 0);
   if (progress && progress->size() == done.size()) done.swap(*progress);
   std::exception_ptr failure;
   std::mutex failure_mutex;
-  const auto tile_count = static_cast<std::ptrdiff_t>(tiles.size());
+
+  // trace(first sample) returns for how many samples it has traced its part. Exceptions must not leave a parallel loop.
+  const auto all_samples = [&](std::ptrdiff_t part, auto trace) {
+    try {
+      for (int& first = done[static_cast<std::size_t>(part)]; first < count;) {
+        if (cancel && cancel->load(std::memory_order_relaxed)) stop = true;
+        if (stop.load(std::memory_order_relaxed)) break;
+        first += trace(first);
+      }
+    } catch (...) {
+      const std::lock_guard lock(failure_mutex);
+      failure = std::current_exception();
+      stop = true;
+    }
+  };
+  const auto sample_number = [&](int sample) { return static_cast<std::uint32_t>(film.samples() + sample); };
 
 #pragma omp parallel num_threads(threads)
   {
     std::vector<float> rgb;
+    std::vector<Splat> splats;
 #pragma omp for schedule(dynamic)
     for (std::ptrdiff_t i = 0; i < tile_count; ++i) {
-      // Exceptions must not leave the parallel loop.
-      try {
+      all_samples(i, [&](int first) {
         rgb.resize(3 * block_paths);
         PathBlock block = tiles[static_cast<std::size_t>(i)];
-        const int most = block_paths / (block.width * block.height);
-        int& first = done[static_cast<std::size_t>(i)];
-        for (; first < count; first += block.samples) {
-          if (cancel && cancel->load(std::memory_order_relaxed)) stop = true;
-          if (stop.load(std::memory_order_relaxed)) break;
-          block.first_sample = static_cast<std::uint32_t>(film.samples() + first);
-          block.samples = std::min(most, count - first);
-          trace(scene, block, execution.lanes, rgb.data());
-          add_to_film(film, block, rgb.data());
-        }
-      } catch (...) {
-        const std::lock_guard lock(failure_mutex);
-        failure = std::current_exception();
-        stop = true;
-      }
+        block.first_sample = sample_number(first);
+        block.samples = std::min(block_paths / (block.width * block.height), count - first);
+        trace(scene, block, execution.lanes, rgb.data());
+        add_to_film(film, block, rgb.data());
+        return block.samples;
+      });
+    }
+    // Splats go to all pixels, which from here on no thread has to itself.
+#pragma omp for schedule(dynamic)
+    for (std::ptrdiff_t i = 0; i < light_count; ++i) {
+      all_samples(tile_count + i, [&](int sample) {
+        const int first = static_cast<int>(i) * light_block_paths;
+        const LightBlock block{first, std::min(light_block_paths, scene.light_paths - first), sample_number(sample)};
+        splats.clear();
+        trace_light(scene, block, execution.lanes, splats);
+        film.add(static_cast<int>(block.sample & 1u), splats);
+        return 1;
+      });
     }
   }
   if (failure) std::rethrow_exception(failure);

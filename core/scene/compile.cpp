@@ -34,7 +34,8 @@ PinholeCamera lower_camera(const Scene& scene, const dvec3& origin) {
   // A pixel's size on the plane at distance 1.
   const double pixel = 2 * std::tan(glm::radians(c.fov_y) / 2) / scene.image.height;
   const dvec3 corner = forward - right * (pixel * scene.image.width / 2) + up * (pixel * scene.image.height / 2);
-  return {to_floats(c.eye - origin), to_floats(corner), to_floats(right * pixel), to_floats(up * -pixel)};
+  return {to_floats(c.eye - origin), to_floats(corner),  to_floats(right * pixel),
+          to_floats(up * -pixel),    to_floats(forward), static_cast<float>(pixel * pixel)};
 }
 
 /// Centre of the bounding box of what is kept.
@@ -71,7 +72,9 @@ void lower_room(Lowering& l) {
     const Material& material = l.scene.materials[static_cast<std::size_t>(face.material)];
     const dvec3 front = face.front ? -face.inside.n : face.inside.n;
     const int surface = l.add_surface({&material, front});
-    if (face.front) add_flat_lamp(l, moved(face.outline, l.origin), front, material, surface, surface);
+    const std::vector<dvec3> outline = moved(face.outline, l.origin);
+    add_target(l, material, bounding_sphere(outline), surface, surface);
+    if (face.front) add_flat_lamp(l, outline, front, material, surface, surface);
     return surface;
   };
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -106,6 +109,7 @@ void lower_polygon(Lowering& l, const Polygon& polygon) {
   const Material& material = l.material(polygon.material);
   const int surface = l.add_surface({&material, n});
   add_flat_lamp(l, v, n, material, surface, surface);
+  add_target(l, material, bounding_sphere(v), surface, surface);
   const auto f = to_floats(n);
   const int first_bound = static_cast<int>(l.out.polygon_bounds.size());
   auto bound = [&](const dvec3& b, double lo, double hi) {
@@ -138,6 +142,8 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   const bool around_eye = length(l.scene.camera.eye - sphere.center) < sphere.radius;
   auto& list = glass ? l.out.glass_spheres : around_eye ? l.out.shells : l.out.spheres;
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
+  add_target(l, material, {c, sphere.radius}, surface, surface);
+  if (glass || (material.type == MaterialType::mirror && !around_eye)) l.specular_spheres.push_back({&sphere, surface});
   if (material.type == MaterialType::light && !around_eye)
     l.lamps.push_back(
         {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
@@ -209,6 +215,8 @@ void describe(Lowering& l) {
   count(out.shells.size(), "sphere around the camera", "spheres around the camera");
   count(out.glass_spheres.size(), "glass sphere", "glass spheres");
   count(out.polygons.size(), "polygon", "polygons");
+  count(out.chain_spheres.size(), "sphere that caustics are connected over",
+        "spheres that caustics are connected over");
   count(static_cast<std::size_t>(out.lamps.rows()), "piece of a lamp", "pieces of lamps");
   auto feature = [&](bool used, const char* what) { (used ? out.compiled_in : out.left_out).emplace_back(what); };
   feature(out.has_mirror, "mirror reflection");
@@ -223,7 +231,7 @@ void describe(Lowering& l) {
 CompiledScene compile(const Scene& scene) {
   if (const std::vector<Problem> problems = validate(scene); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
-  Lowering l{scene, find_reach(scene), {}, {}, {}, {}};
+  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;
@@ -239,6 +247,8 @@ CompiledScene compile(const Scene& scene) {
   for (const Sphere* s : l.reach.spheres) lower_sphere(l, *s);
   fill_surfaces(l);
   lower_lamps(l);
+  lower_aims(l);
+  lower_chains(l);
   describe(l);
   warn(l);
   return std::move(l.out);

@@ -27,8 +27,6 @@ void add_flat_lamp(Lowering& l, const std::vector<dvec3>& v, const dvec3& normal
   }
 }
 
-namespace {
-
 double area_of(const LampPiece& p) {
   switch (p.shape) {
     case LampShape::parallelogram:
@@ -43,12 +41,6 @@ double area_of(const LampPiece& p) {
   return 0;
 }
 
-struct AliasEntry {
-  double threshold;
-  std::size_t other;
-};
-
-/// Vose, "A linear algorithm for generating random numbers with a given distribution" (1991).
 std::vector<AliasEntry> alias_table(const std::vector<double>& probability) {
   const std::size_t n = probability.size();
   std::vector<AliasEntry> table(n, {1.0, 0});
@@ -71,8 +63,6 @@ std::vector<AliasEntry> alias_table(const std::vector<double>& probability) {
   }
   return table;
 }
-
-}  // namespace
 
 void lower_lamps(Lowering& l) {
   std::erase_if(l.lamps, [](const LampPiece& p) { return p.radiance == dvec3{0} || area_of(p) == 0; });

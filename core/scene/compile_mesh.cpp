@@ -87,6 +87,9 @@ void lower_meshes(Lowering& l) {
     const bool convex = lower_convex(l, mesh, material, eta, first_surface);
     if (!convex) lower_triangles(l, mesh, material, eta);
     const int last_surface = static_cast<int>(l.surfaces.size()) - 1;
+    std::vector<dvec3> vertices = mesh.vertices;
+    for (dvec3& v : vertices) v -= l.origin;
+    add_target(l, material, bounding_sphere(vertices), first_surface, last_surface);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       std::vector<dvec3> v = triangle_vertices(mesh, mesh.triangles[i]);
       const dvec3 n = plane_of(v).n;

@@ -65,6 +65,23 @@ double distance_to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
   return length(p - a - ab * along);
 }
 
+}  // namespace
+
+double distance_to_polygon(const dvec3& p, const std::vector<dvec3>& polygon) {
+  const HalfSpace plane = plane_of(polygon);
+  double distance = std::abs(dot(plane.n, p) - plane.d);
+  bool above = true;
+  double edge = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    above = above && dot(cross(plane.n, b - a), p - a) >= 0;
+    edge = std::min(edge, distance_to_segment(p, a, b));
+  }
+  return above ? distance : edge;
+}
+
+namespace {
+
 double distance_between_segments(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
   // Where the lines come nearest, if that is on both; else an end of one is nearest.
   const dvec3 u = b - a, v = d - c, w = a - c;
@@ -79,19 +96,6 @@ double distance_between_segments(const dvec3& a, const dvec3& b, const dvec3& c,
 }
 
 /// From a point to a convex polygon.
-double distance_to_polygon(const dvec3& p, const std::vector<dvec3>& polygon) {
-  const HalfSpace plane = plane_of(polygon);
-  double distance = std::abs(dot(plane.n, p) - plane.d);
-  bool above = true;
-  double edge = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    above = above && dot(cross(plane.n, b - a), p - a) >= 0;
-    edge = std::min(edge, distance_to_segment(p, a, b));
-  }
-  return above ? distance : edge;
-}
-
 double distance_between_polygons(const std::vector<dvec3>& a, const std::vector<dvec3>& b) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const dvec3& p : a) nearest = std::min(nearest, distance_to_polygon(p, b));
@@ -118,12 +122,6 @@ double lit_distance(const LampPiece& lamp, const dvec3& origin, const Piece& pie
                                                                     : far;
   const std::vector<dvec3> lit = clip(piece.outline, {-lamp.normal, -dot(lamp.normal, p) - 1e-6 * size});
   return lit.empty() ? far : distance_between_polygons(lit, outline);
-}
-
-double area_of(const LampPiece& p) {
-  if (p.shape == LampShape::sphere || p.shape == LampShape::sphere_by_area)
-    return 4 * std::numbers::pi * p.e1.x * p.e1.x;
-  return length(cross(p.e1, p.e2)) * (p.shape == LampShape::triangle ? 0.5 : 1.0);
 }
 
 void warn_of_near_lamps(Lowering& l, const std::vector<Piece>& pieces) {

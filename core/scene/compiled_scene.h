@@ -48,6 +48,8 @@ enum class Column {
   eta,             ///< glass: index behind the surface over index in front of it
   schlick,         ///< 1 where Schlick's Fresnel is asked for
   lamp,            ///< first row of the lamp table that is a piece of this light, as int32; -1: none is
+  chain,           ///< of a sphere that connections pass over, as int32: 1 by reflection, 2 by refraction too; else 0
+  target,          ///< number of the mirror or glass that light paths may be aimed at, as int32; -1: none
   count
 };
 
@@ -82,6 +84,23 @@ enum class LampColumn {
 /// What is sampled, and how: `rectangle` and `sphere` by solid angle, the others by area.
 enum class LampShape { parallelogram, triangle, sphere, rectangle, sphere_by_area };
 inline constexpr std::size_t lamp_shapes = 5;
+
+/// Columns of the table that light paths begin from: a piece of a lamp and a mirror or glass that it is aimed at, by
+/// way of the sphere around it.
+enum class AimColumn {
+  lamp,  ///< row of the lamp table, as int32
+  center_x,
+  center_y,
+  center_z,
+  radius,
+  target,  ///< what Column::target of the first surface on the way must be, as int32
+  weight_r,
+  weight_g,
+  weight_b,         ///< radiance * area of the lamp / probability of choice / light paths of a pass
+  alias_threshold,  ///< as in the lamp table
+  alias_other,
+  count
+};
 
 /// Columns of floats, each 64-byte aligned and padded to a multiple of 32 with zeros.
 template <class ColumnType>
@@ -159,6 +178,16 @@ struct TriangleShape {
 /// down.
 struct PinholeCamera {
   std::array<float, 3> eye, corner, right, down;
+  std::array<float, 3> forward;  ///< unit, to the middle of the image
+  float pixel_area;              ///< of a pixel on the plane at distance 1, m^2
+};
+
+/// A sphere over which diffuse surfaces are connected to lamps; see kernel/connect.h.
+struct ChainSphere {
+  std::array<float, 3> center;
+  float radius;
+  std::int32_t surface;
+  bool refracts;  ///< glass with nothing inside
 };
 
 struct CompiledScene {
@@ -180,6 +209,10 @@ struct CompiledScene {
   std::vector<TriangleShape> triangles;
 
   Table<LampColumn> lamps;
+  int light_paths = 0;         ///< of every pass, from lamps to mirrors and glass; 0: caustics are found by chance
+  float light_path_noise = 0;  ///< see kernel/pinhole.h
+  Table<AimColumn> aims;
+  std::vector<ChainSphere> chain_spheres;
   bool has_mirror = false, has_glass = false, has_oren_nayar = false, has_eon = false;
   bool has_glow = false;          ///< reflecting surfaces with emission
   bool room_hides_lamps = false;  ///< a lamp is partly outside the room, so shadow rays test the room too

@@ -11,6 +11,7 @@ constexpr std::array<std::string_view, 3> method_names{"path", "naive", "report"
 constexpr std::array<std::string_view, 4> light_sampling_names{"none", "area", "solid-angle", "auto"};
 constexpr std::array<std::string_view, 5> sampler_names{"independent", "stratified", "lattice", "sobol", "centres"};
 constexpr std::array<std::string_view, 2> switch_names{"off", "on"};
+constexpr std::array<std::string_view, 3> caustics_names{"off", "on", "only"};
 constexpr std::array<std::string_view, 2> roulette_names{"throughput", "constant"};
 constexpr std::array<std::string_view, 2> formula_names{"published", "report"};
 constexpr std::array<std::string_view, 2> fresnel_names{"exact", "schlick"};
@@ -34,7 +35,7 @@ constexpr auto choice(std::span<const std::string_view> names) {
 constexpr double max_radiance = 1e9;
 
 // The method comes before what it sets, so that what a file or command line says beside it holds.
-const std::array<Field<Settings>, 12> settings_table{{
+const std::array<Field<Settings>, 15> settings_table{{
     {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
     {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
      &Settings::target_error, 0, 1e6},
@@ -52,10 +53,20 @@ const std::array<Field<Settings>, 12> settings_table{{
     {"roulette", "probability of survival: the path's throughput, or constant 0.75 at diffuse hits",
      choice<&Settings::roulette>(roulette_names)},
     {"roulette_depth", "surface hits before roulette by throughput begins", &Settings::roulette_depth, 0, 64},
+    {.key = "roulette_below",
+     .doc = "throughput below which it is played, with the chance throughput / roulette_below",
+     .member = &Settings::roulette_below,
+     .min = 0,
+     .max = 1,
+     .min_excluded = true},
     {"sampler", "random numbers: independent, stratified 4x4, lattice, Owen-scrambled Sobol, or sub-pixel centres",
      choice<&Settings::sampler>(sampler_names)},
-    {"caustics", "light that reaches a diffuse surface by way of mirrors or glass",
-     choice<&Settings::caustics>(switch_names)},
+    {"caustics", "light that reaches a diffuse surface by way of mirrors or glass: off, on, or nothing else",
+     choice<&Settings::caustics>(caustics_names)},
+    {"light_paths", "paths from lamps to mirrors and glass for each path from the camera; 0: caustics by chance alone",
+     &Settings::light_paths, 0, 16},
+    {"sphere_connections", "caustics seen in mirrors and through glass: connections to lamps over single spheres",
+     choice<&Settings::sphere_connections>(switch_names)},
     {"max_depth", "surfaces that a path may meet, its lamp included; 0 for no limit", &Settings::max_depth, 0, 1000},
 }};
 
@@ -169,6 +180,9 @@ void set_method(Settings& settings, Method method) {
   settings.shadow_rays = other.shadow_rays;
   settings.seed = other.seed;
   settings.method = method;
+  if (method == Method::path) return;
+  settings.light_paths = 0;
+  settings.sphere_connections = SphereConnections::off;
   if (method == Method::naive) settings.light_sampling = LightSampling::none;
   if (method != Method::report) return;
   settings.light_sampling = LightSampling::area;

@@ -22,12 +22,32 @@ struct LampPiece {
   int first_surface, last_surface;
 };
 
+/// A ball around something, in compiled space.
+struct BoundingSphere {
+  glm::dvec3 center;
+  double radius;
+};
+
+/// A mirror or glass that light paths may be aimed at.
+struct Target {
+  BoundingSphere bounds;
+  int first_surface, last_surface;
+};
+
+/// A mirror or glass sphere that is met from outside.
+struct SpecularSphere {
+  const Sphere* sphere;
+  int surface;
+};
+
 struct Lowering {
   const Scene& scene;
   Reach reach;
   glm::dvec3 origin{0};  ///< of compiled space, in world space
   std::vector<Surface> surfaces;
   std::vector<LampPiece> lamps;
+  std::vector<Target> targets;
+  std::vector<SpecularSphere> specular_spheres;
   CompiledScene out;
 
   const Material& material(const std::string& name) const {
@@ -58,6 +78,27 @@ void add_flat_lamp(Lowering& l, const std::vector<glm::dvec3>& vertices, const g
 
 /// The lamp table from the pieces gathered, each chosen with a probability in proportion to its power.
 void lower_lamps(Lowering& l);
+
+double area_of(const LampPiece& piece);
+
+struct AliasEntry {
+  double threshold;
+  std::size_t other;
+};
+/// Vose, "A linear algorithm for generating random numbers with a given distribution" (1991).
+std::vector<AliasEntry> alias_table(const std::vector<double>& probability);
+
+BoundingSphere bounding_sphere(const std::vector<glm::dvec3>& vertices);
+/// Does nothing for a material that is neither mirror nor glass.
+void add_target(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
+                int last_surface);
+/// The table that light paths begin from, and how many there are; after lower_lamps().
+void lower_aims(Lowering& l);
+
+double distance_to_polygon(const glm::dvec3& p, const std::vector<glm::dvec3>& polygon);
+
+/// The spheres over which diffuse surfaces are connected to lamps; after lower_lamps().
+void lower_chains(Lowering& l);
 
 /// Warnings for scenes in which the chosen estimators cannot hold.
 void warn(Lowering& l);

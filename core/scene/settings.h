@@ -25,7 +25,7 @@ enum class Mis { off, on };
 
 /// How Russian roulette chooses the probability of survival.
 enum class Roulette {
-  throughput,  ///< the largest component of the path's throughput, from `roulette_depth` on, for every path
+  throughput,  ///< the largest component of the path's throughput over `roulette_below`, from `roulette_depth` on
   constant,    ///< 0.75 at every diffuse hit (the report); infinite variance where the reflectance is above 0.866
 };
 
@@ -41,7 +41,10 @@ enum class Sampler {
 };
 
 /// Light that reaches a diffuse surface by way of mirrors or glass.
-enum class Caustics { off, on };
+enum class Caustics { off, on, only };
+
+/// Whether caustics that are seen in mirrors and through glass are connected to lamps over single spheres.
+enum class SphereConnections { off, on };
 
 /// Everything that says how a scene is rendered, and nothing of what is in it. Declared for files, command line and
 /// window in fields.cpp.
@@ -54,9 +57,12 @@ struct Settings {
   LightSampling light_sampling = LightSampling::automatic;
   Mis mis = Mis::off;
   Roulette roulette = Roulette::throughput;
-  int roulette_depth = 3;  ///< surface hits before `throughput` roulette begins
+  int roulette_depth = 3;        ///< surface hits before `throughput` roulette begins
+  double roulette_below = 0.25;  ///< throughput, of 0..1, below which it is played
   Sampler sampler = Sampler::lattice;
   Caustics caustics = Caustics::on;
+  double light_paths = 0.05;  ///< from lamps to mirrors and glass, for each path from the camera; 0: no light tracing
+  SphereConnections sphere_connections = SphereConnections::on;
   int max_depth = 0;  ///< surfaces that a path may meet, its lamp included; 0: no limit
 
   bool operator==(const Settings&) const = default;

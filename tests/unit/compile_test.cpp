@@ -330,4 +330,72 @@ TEST(Compile, RefusesWhatCannotBeRendered) {
   EXPECT_THROW(compile(scene), SceneError);
 }
 
+/// Of the scene's spheres: 0 where caustics are not connected over it, 1 by reflection, 2 by refraction too.
+std::vector<int> connected_over(const Scene& scene) {
+  const CompiledScene c = compile(scene);
+  std::vector<int> kinds;
+  for (const Sphere& s : scene.spheres) {
+    int kind = 0;
+    for (const ChainSphere& chain : c.chain_spheres) {
+      const double off = length(s.center - dvec3{chain.center[0], chain.center[1], chain.center[2]} -
+                                dvec3{c.origin[0], c.origin[1], c.origin[2]});
+      if (off > 1e-6 || std::abs(s.radius - static_cast<double>(chain.radius)) > 1e-6) continue;
+      kind = chain.refracts ? 2 : 1;
+      EXPECT_EQ(std::bit_cast<std::int32_t>(c.surfaces[Column::chain][chain.surface]), kind);
+    }
+    kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+TEST(Compile, ConnectsOverMirrorAndGlassSpheresInTheRoom) {
+  Scene scene = lit_box();
+  scene.materials.push_back(mirror("black", dvec3{0}));
+  scene.spheres = {{"a", "mirror", {-0.5, -0.8, 0}, 0.2}, {"b", "glass", {0.5, -0.8, 0}, 0.2},
+                   {"c", "white", {0, 0, -0.5}, 0.1},     {"d", "black", {0, 0.5, -0.5}, 0.1},
+                   {"e", "glass", {0.9, 0.5, 0}, 0.2},    {"f", "mirror", {-0.9, 0.5, 0}, 0.2}};
+  EXPECT_EQ(connected_over(scene), (std::vector{1, 2, 0, 0, 0, 0})) << "the last two reach through the walls";
+  for (const auto& change : {+[](Settings& s) { s.sphere_connections = SphereConnections::off; },
+                             +[](Settings& s) { s.caustics = Caustics::off; },
+                             +[](Settings& s) { s.light_sampling = LightSampling::none; }}) {
+    Scene other = scene;
+    change(other.render);
+    EXPECT_EQ(connected_over(other), std::vector<int>(6)) << "left to chance";
+  }
+  scene.polygons.pop_back();
+  EXPECT_EQ(connected_over(scene), std::vector<int>(6)) << "no lamp";
+}
+
+// A ray inside the glass would meet what is there.
+TEST(Compile, ConnectsByRefractionOnlyThroughEmptyGlass) {
+  const Sphere ball{"ball", "glass", {0, 0, 0}, 0.5};
+  Scene scene = lit_box();
+  scene.spheres = {ball, {"beside", "glass", {0.8, 0, 0}, 0.1}, {"touching", "white", {0, 0.7, 0}, 0.2}};
+  EXPECT_EQ(connected_over(scene), (std::vector{2, 2, 0}));
+  scene.spheres = {ball, {"inside", "glass", {0.3, 0, 0}, 0.1}};
+  EXPECT_EQ(connected_over(scene), (std::vector{1, 2}));
+  scene.spheres = {ball, {"half inside", "white", {0.5, 0, 0}, 0.1}};
+  EXPECT_EQ(connected_over(scene), (std::vector{1, 0}));
+  scene.spheres = {ball};
+  for (const bool inside : {false, true}) {
+    Scene other = scene;
+    const double x = inside ? 0.4 : 0.51;
+    other.polygons.push_back({"slice", "white", {{x, -0.9, -0.9}, {x, 0.9, -0.9}, {x, 0.9, 0.9}, {x, -0.9, 0.9}}});
+    EXPECT_EQ(connected_over(other), std::vector{inside ? 1 : 2});
+    other = scene;
+    other.meshes = {tetrahedron("block", "white", {inside ? 0.2 : 0.8, 0, 0}, 0.1)};
+    EXPECT_EQ(connected_over(other), std::vector{inside ? 1 : 2});
+  }
+}
+
+TEST(Compile, ConnectsOverNoMoreThanEightSpheresTheLargest) {
+  Scene scene = lit_box();
+  std::vector<int> expected;
+  for (int i = 0; i < 10; ++i) {
+    scene.spheres.push_back({"", "mirror", {-0.9 + 0.2 * i, 0, 0}, 0.05 + 0.004 * i});
+    expected.push_back(i < 2 ? 0 : 1);
+  }
+  EXPECT_EQ(connected_over(scene), expected);
+}
+
 }  // namespace

@@ -84,6 +84,10 @@ TEST(Fields, ChoicesSetTheValueTheyName) {
   EXPECT_EQ(settings.sampler, Sampler::centres);
   named(settings_fields(), "caustics", "off", settings);
   EXPECT_EQ(settings.caustics, Caustics::off);
+  named(settings_fields(), "caustics", "only", settings);
+  EXPECT_EQ(settings.caustics, Caustics::only);
+  named(settings_fields(), "sphere_connections", "off", settings);
+  EXPECT_EQ(settings.sphere_connections, SphereConnections::off);
   named(settings_fields(), "roulette", "constant", settings);
   EXPECT_EQ(settings.roulette, Roulette::constant);
   named(settings_fields(), "roulette", "throughput", settings);
@@ -101,7 +105,8 @@ TEST(Fields, ChoicesSetTheValueTheyName) {
 
 // A method sets what it is made of, and nothing that is not an estimator.
 TEST(Fields, MethodsSetTheirParts) {
-  Settings settings{.spp = 7, .target_error = 0.5, .shadow_rays = 3, .seed = 9, .mis = Mis::on, .max_depth = 4};
+  Settings settings{
+      .spp = 7, .target_error = 0.5, .shadow_rays = 3, .seed = 9, .mis = Mis::on, .light_paths = 2, .max_depth = 4};
   set_method(settings, Method::report);
   EXPECT_EQ(settings, (Settings{.spp = 7,
                                 .target_error = 0.5,
@@ -111,7 +116,9 @@ TEST(Fields, MethodsSetTheirParts) {
                                 .light_sampling = LightSampling::area,
                                 .roulette = Roulette::constant,
                                 .sampler = Sampler::centres,
-                                .caustics = Caustics::off}));
+                                .caustics = Caustics::off,
+                                .light_paths = 0,
+                                .sphere_connections = SphereConnections::off}));
   set_method(settings, Method::path);
   EXPECT_EQ(settings, (Settings{.spp = 7, .target_error = 0.5, .shadow_rays = 3, .seed = 9}));
 }

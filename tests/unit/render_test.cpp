@@ -52,10 +52,16 @@ TEST(Render, FilmHoldsTheKernelsValues) {
   const CompiledScene scene = compile(from_file("hexagon"));
   const auto rgb = trace_all(scene, 3, Lanes::native);
   Film film = make_film(scene);
-  for (int s = 0; s < 3; ++s)
+  std::vector<Splat> splats;
+  for (int s = 0; s < 3; ++s) {
     film.add(0, s % 2,
              {rgb.data() + static_cast<std::ptrdiff_t>(s) * 3 * scene.width * scene.height,
               3 * static_cast<std::size_t>(scene.width * scene.height)});
+    splats.clear();
+    trace_light(scene, {0, scene.light_paths, static_cast<std::uint32_t>(s)}, Lanes::native, splats);
+    EXPECT_GT(splats.size(), 0u);
+    film.add(s % 2, splats);
+  }
   film.finish_pass(3);
   EXPECT_EQ(sums(render(scene, 3)), sums(film));
 }
