@@ -70,47 +70,42 @@ Comparison compare(const Image& x, const Image& reference) {
 
 double relmse_estimate(const Film& film) {
   if (film.samples() < 2) return std::numeric_limits<double>::infinity();
-  constexpr int reach = 3;  // pixels of the block to each side of its middle
-  const int width = film.width(), height = film.height();
-  const auto values = 3 * static_cast<std::size_t>(width);
+  constexpr int block = 8;
   const double n0 = film.half_samples(0), n1 = film.half_samples(1), n = n0 + n1;
-  const Image mean = film.mean();
-  const auto around = [](int at, int size) { return std::min(at + reach + 1, size) - std::max(at - reach, 0); };
-  std::vector<double> shares(values);  // of one of the block's columns in it
-  for (std::size_t i = 0; i < values; ++i) shares[i] = 1.0 / around(static_cast<int>(i / 3), width);
+  const int block_rows = (film.height() + block - 1) / block;
+  const int block_columns = (film.width() + block - 1) / block;
+  struct BlockSums {
+    std::array<double, 3> radiance{}, squares{};  ///< sum of all samples; sum over pixels of (h0 - h1)^2
+  };
 
-  // One sum per row, added in order: the same value for any number of threads.
-  std::vector<double> row_errors(static_cast<std::size_t>(height));
-#pragma omp parallel if (width * height > (1 << 16))
-  {
-    // Sums over the block's rows, with black pixels before and behind.
-    std::vector<double> columns(values + std::size_t{6} * reach), squares(values);
-#pragma omp for
-    for (int y = 0; y < height; ++y) {
-      std::ranges::fill(columns, 0.0);
-      for (int row = std::max(y - reach, 0); row < std::min(y + reach + 1, height); ++row)
-        for (std::size_t i = 0; i < values; ++i) columns[i + 3 * reach] += static_cast<double>(mean.pixel(0, row)[i]);
-      for (int x = 0; x < width; ++x) {
-        const auto a = film.half_sum(y * width + x, 0), b = film.half_sum(y * width + x, 1);
+  // One sum per row of blocks, added in order: the same value for any number of threads.
+  std::vector<double> row_errors(static_cast<std::size_t>(block_rows));
+#pragma omp parallel for if (film.width() * film.height() > (1 << 16))
+  for (int row = 0; row < block_rows; ++row) {
+    std::vector<BlockSums> blocks(static_cast<std::size_t>(block_columns));
+    const int y0 = row * block, y1 = std::min(y0 + block, film.height());
+    for (int y = y0; y < y1; ++y) {
+      for (int x = 0; x < film.width(); ++x) {
+        const auto a = film.half_sum(y * film.width() + x, 0), b = film.half_sum(y * film.width() + x, 1);
+        BlockSums& sums = blocks[static_cast<std::size_t>(x / block)];
         for (std::size_t c = 0; c < 3; ++c) {
           const double difference = a[c] / n0 - b[c] / n1;
-          squares[3 * static_cast<std::size_t>(x) + c] = difference * difference;
+          sums.radiance[c] += a[c] + b[c];
+          sums.squares[c] += difference * difference;
         }
       }
-      const double rows = around(y, height);
-      double row_error = 0;
-#pragma omp simd reduction(+ : row_error)
-      for (std::size_t i = 0; i < values; ++i) {
-        double sum = 0;
-        for (std::size_t k = 0; k <= 2 * reach; ++k) sum += columns[i + 3 * k];
-        const double m = sum * shares[i] / rows;
-        row_error += squares[i] / (m * m + dark);
+    }
+    for (int column = 0; column < block_columns; ++column) {
+      const BlockSums& sums = blocks[static_cast<std::size_t>(column)];
+      const int block_pixels = (y1 - y0) * (std::min((column + 1) * block, film.width()) - column * block);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double m = sums.radiance[c] / (n * block_pixels);
+        row_errors[static_cast<std::size_t>(row)] += sums.squares[c] / (m * m + dark);
       }
-      row_errors[static_cast<std::size_t>(y)] = row_error;
     }
   }
   const double total = std::accumulate(row_errors.begin(), row_errors.end(), 0.0);
-  return total * (n0 * n1 / (n * n)) / (3.0 * width * height);
+  return total * (n0 * n1 / (n * n)) / (3.0 * film.width() * film.height());
 }
 
 }  // namespace glimt

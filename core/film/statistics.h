@@ -24,7 +24,7 @@ Comparison compare(const Image& x, const Image& reference);
 double mean(const Image& image);
 
 /// relmse of the film's mean, estimated without a reference: mean of (h0 - h1)^2 / 4 / (m^2 + 0.01), h0 and h1 the
-/// halves' pictures and m the mean over the 7x7 pixels around (the quarter is n0 n1 / (n0 + n1)^2,
+/// halves' pictures and m the mean over the aligned 8x8 block around the pixel (the quarter is n0 n1 / (n0 + n1)^2,
 /// which differs from it for odd counts). Infinite below two samples.
 double relmse_estimate(const Film& film);
 

@@ -49,8 +49,8 @@ struct Case {
   glm::dvec3 direction;  ///< of the part's middle: the lamp, or the spheres
 };
 
-/// A part of the scene's picture, its pixels as large as in the whole. The estimate looks at blocks of 7x7 pixels, so a
-/// small picture of the same view would not do: its blocks would mix more of the lamp with the ceiling.
+/// A part of the scene's picture, its pixels as large as in the whole. The estimate looks at blocks of 8x8 pixels, so a
+/// small picture of the same view would not do: its blocks would mix the lamp with the ceiling.
 Scene part_of_picture(const Case& part) {
   Scene scene = read_scene(GLIMT_SCENES "/" + part.scene + ".toml");
   const double degree = std::numbers::pi / 180, whole = scene.image.height;
