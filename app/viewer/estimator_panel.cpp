@@ -69,6 +69,10 @@ bool edit_size(ImageSize& size) {
 }  // namespace
 
 void draw_estimator_panel(const ViewerState& state, Edits& edits) {
+  // So many rows that they stand closer than elsewhere, or a small window would not hold them.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, 0.5F * style.ItemSpacing.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, 0.75F * style.FramePadding.y});
   Settings settings = state.scene.render;
   bool changed = edit_target(settings);
   for (const auto& field : settings_fields()) {
@@ -82,6 +86,7 @@ void draw_estimator_panel(const ViewerState& state, Edits& edits) {
   if (changed) edits.edit(state).render = settings;
   ImageSize size = state.scene.image;
   if (edit_size(size)) edits.edit(state).image = size;
+  ImGui::PopStyleVar(2);
 }
 
 }  // namespace glimt

@@ -144,13 +144,14 @@ TEST(Reflectance, ZeroIsBlack) {
 }
 
 // Failure: bright rooms are too dark, because long paths are cut off, or never get quiet. Walls that glow with 1 and
-// reflect 0.99 show 1 / (1 - 0.99) = 100 everywhere (furnace.toml derives it). Roulette by throughput keeps every
-// path's weight at 1, so the number of hits is geometric: relative variance 0.99.
+// reflect 0.99 show 1 / (1 - 0.99) = 100 everywhere (furnace.toml derives it). Roulette by throughput from
+// the first hit on keeps every path's weight at 1, so the number of hits is geometric: relative variance 0.99.
 TEST(Reflectance, NinetyNineHundredthsShowAHundredfold) {
   Scene scene = under_a_bright_ceiling(0);
   for (Polygon& wall : scene.polygons) wall.material = "wall";
   scene.materials[0] = lambertian("wall", dvec3{0.99}, dvec3{1});
   scene.render.roulette_depth = 0;
+  scene.render.roulette_below = 1;
   const Series series = render_series(scene, 8, 8 * effort, 8);
   const double level = sidak(alpha, static_cast<double>(series.size() + 1));
   EXPECT_GT(likelihood(series.overall(), 100), level) << series.overall().mean << " +- " << series.overall().error;

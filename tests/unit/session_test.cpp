@@ -295,9 +295,9 @@ TEST(Session, StopsAtAnEstimatedError) {
   EXPECT_GE(end->samples, 8) << "fewer say too little of the error";
   EXPECT_LE(end->relmse_estimate, 0.05);
   EXPECT_EQ(relmse_estimate(render(compile(scene), end->samples)), end->relmse_estimate);
-  scene.render.target_error = 0.02;
+  scene.render.target_error = 0.005;
   EXPECT_EQ(session.post(scene), version) << "goes on with the samples there are";
-  const FramePtr more = wait_for(session, [](const Frame& f) { return f.finished && f.relmse_estimate <= 0.02; });
+  const FramePtr more = wait_for(session, [](const Frame& f) { return f.finished && f.relmse_estimate <= 0.005; });
   ASSERT_TRUE(more);
   EXPECT_GT(more->samples, end->samples);
 }
