@@ -110,8 +110,9 @@ class ManagedWindow : public WindowTest {
       const std::string group = name.substr(0, name.find('.') + 1), key = name.substr(name.rfind('.') + 1);
       static const std::set<std::string> groups{"render.", "lamp.", "camera.", "object.", "image."};
       // Neither menus nor colours nor what is typed.
-      static const std::set<std::string> others{"seed",        "method",   "roulette", "reset",  "type",
-                                                "reflectance", "radiance", "emission", "formula"};
+      static const std::set<std::string> others{
+          "seed",    "method",   "roulette", "reset",   "type",           "reflectance",        "radiance", "emission",
+          "formula", "caustics", "mis",      "sampler", "light_sampling", "sphere_connections", "stop_at",  "fresnel"};
       if (name == "exposure" || (groups.contains(group) && !others.contains(key) && !names_an_object(name)))
         drag(name, 0.45, 0.55);
     }
