@@ -17,8 +17,9 @@ struct Features {
   bool small_table;        ///< no more surfaces than lookup_small can hold
   bool one_parallelogram;  ///< the only lamp
   bool oren_nayar;
-  bool rare;  ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON;
-              ///< settings other than the defaults
+  bool caustics;  ///< light paths or connections over spheres
+  bool rare;      ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON;
+                  ///< settings other than the defaults
 };
 
 /// A ray in compiled space; `direction` is of unit length.

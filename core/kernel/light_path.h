@@ -189,7 +189,9 @@ class LightPathTracer {
 
 template <class F>
 void trace_light_block(const CompiledScene& scene, const LightBlock& block, std::vector<Splat>& splats) {
-  with_features(scene, [&](auto features) { LightPathTracer<F, features()>(scene, block, splats).run(); });
+  with_features(scene, [&](auto features) {
+    if constexpr (features().caustics) LightPathTracer<F, features()>(scene, block, splats).run();
+  });
 }
 
 }  // namespace glimt

@@ -44,6 +44,7 @@ class PathTracer {
         rgb_(rgb),
         light_traced_(light_traced),
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
+        over_roulette_below_(static_cast<float>(1 / scene.settings.roulette_below)),
         next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0 &&
                     choices().caustics != Caustics::only),
         mis_(next_event_ && choices().mis == Mis::on),
@@ -59,7 +60,7 @@ class PathTracer {
     s.lamp_share = s.caustic_share = F(0.0f);
     s.connects = F(1.0f) < F(0.0f);
     s.chain = {I(chain_none), F(0.0f), F(0.0f)};
-    if (connects_) connector_.begin(source.paths());
+    if (connects()) connector_.begin(source.paths());
     const V origin = source.origin();
     s.ray = {origin, {F(0.0f), F(0.0f), F(1.0f)}, I(-1)};
     for (;;) {
@@ -72,7 +73,7 @@ class PathTracer {
       finish(s, ended);
     }
     write_out();
-    if (connects_) connector_.finish(rgb_);
+    if (connects()) connector_.finish(rgb_);
   }
 
  private:
@@ -97,9 +98,9 @@ class PathTracer {
     if (scene_.has_glass) s.ior2 = select(idle, F(1.0f), s.ior2);
     const F share(choices().caustics == Caustics::only ? 0.0f : 1.0f);
     s.lamp_share = select(idle, share, s.lamp_share);
-    s.caustic_share = select(idle, share, s.caustic_share);
+    if (features.caustics) s.caustic_share = select(idle, share, s.caustic_share);
     s.depth = select(idle, I(0), s.depth);
-    if (connects_) {
+    if (connects()) {
       s.chain.stage = select(idle, I(chain_none), s.chain.stage);
       s.connects = s.connects | idle;
     }
@@ -134,7 +135,7 @@ class PathTracer {
       s.throughput = s.throughput * select(enters, scatter.inverse_eta2, F(1.0f));
       s.ior2 = s.ior2 * select(enters, scatter.eta2, F(1.0f));
     }
-    if (connects_) s.chain.follow(surfaces_, s.ray, at, hit.t, diffuse & s.connects, enters);
+    if (connects()) s.chain.follow(surfaces_, s.ray, at, hit.t, diffuse & s.connects, enters);
     share_caustics(s, at, hit.t, diffuse);
     s.ray = {at.point, direction, at.surface};
     if (mis_) s.pdf_w = select(diffuse, s.pdf_w, F(0.0f));
@@ -152,13 +153,14 @@ class PathTracer {
     if (caustics == Caustics::off) s.caustic_share = select(diffuse, F(0.0f), s.caustic_share);
     if (caustics == Caustics::only)
       s.caustic_share = select(diffuse & !(s.caustic_share > F(0.0f)), F(1.0f), s.caustic_share);
-    if (light_traced_) {
+    if (light_traced()) {
       const F chance =
           F(1.0f) - light_path_share(scene_, pinhole_importance(scene_, s.ray.direction, distance, at.cos_o));
       s.caustic_share = select(diffuse & equal(s.depth, I(0)), chance, s.caustic_share);
     }
     const bool lamps = !next_event_ && caustics != Caustics::only;
-    s.lamp_share = select(diffuse, F(lamps ? 1.0f : 0.0f), s.caustic_share);
+    const F after_specular = features.caustics ? s.caustic_share : F(1.0f);
+    s.lamp_share = select(diffuse, F(lamps ? 1.0f : 0.0f), after_specular);
   }
 
   /// Where no limit of depth forbids another surface.
@@ -212,8 +214,8 @@ class PathTracer {
       const F weight = max(fnma(m, reciprocal(q + m), F(1.0f)), F(0.0f));
       emission = emission * select(shared, weight, F(1.0f));
     }
-    if (light_traced_) emission = emission * select(light & counts, s.lamp_share, F(1.0f));
-    if (connects_) {
+    if (light_traced()) emission = emission * select(light & counts, s.lamp_share, F(1.0f));
+    if (connects()) {
       M chained = shines & light & s.chain.complete();
       if (any(chained)) {
         const I row = as_int(surfaces_.value(Column::lamp, at));
@@ -234,10 +236,10 @@ class PathTracer {
     }
     const V wi = cosine_hemisphere(at.normal, uv.u, uv.v);
     const bool rough = surfaces_.has_rough();
-    if (rough || mis_ || connects_) {
+    if (rough || mis_ || connects()) {
       const F cos_i = dot(wi, at.normal);
       s.pdf_w = cos_i * F(std::numbers::inv_pi_v<float>);
-      if (connects_) connect(s, at, diffuse, wo);
+      if (connects()) connect(s, at, diffuse, wo);
       if (rough)
         s.throughput = s.throughput * select(diffuse, surfaces_.diffuse_factor(at, wi, wo, cos_i), V::all(F(1.0f)));
     }
@@ -291,7 +293,7 @@ class PathTracer {
     const bool constant = scene_.settings.roulette == Roulette::constant;
     const M trapped = !less(s.depth, I(trapped_depth));
     // The square of the index is left out: it comes back when the path leaves the glass.
-    const F share = brightest * s.ior2 * F(static_cast<float>(1 / scene_.settings.roulette_below));
+    const F share = brightest * s.ior2 * F(over_roulette_below_);
     const M late = (share < F(1.0f)) & !less(s.depth, I(scene_.settings.roulette_depth));
     const M plays = trapped | (constant ? diffuse : late);
     if (!any(plays)) return plays;
@@ -301,6 +303,8 @@ class PathTracer {
     return dies;
   }
 
+  bool light_traced() const { return features.caustics && light_traced_; }
+  bool connects() const { return features.caustics && connects_; }
   const Settings& choices() const { return settings_of<features>(scene_); }
 
   static constexpr float constant_survival = 0.75f;  ///< the report's
@@ -317,6 +321,7 @@ class PathTracer {
   float* rgb_;
   bool light_traced_;
   std::uint32_t hit_block_;  ///< dimensions of a hit
+  float over_roulette_below_;
   bool next_event_;
   bool mis_;
   bool connects_;

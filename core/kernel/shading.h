@@ -135,12 +135,20 @@ void with_features(const CompiledScene& scene, Function f) {
                     scene.has_eon || !has_usual_settings(scene.settings) ||
                     std::any_of(scene.solids.begin(), scene.solids.end(), [](const Solid& s) { return s.glass; });
   const bool one = scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
+  const bool caustics = scene.light_paths > 0 || !scene.chain_spheres.empty();
+  const auto usual = [&]<bool oren_nayar>() {
+    if (caustics) {
+      f(std::integral_constant<Features, Features{true, true, oren_nayar, true, false}>{});
+    } else {
+      f(std::integral_constant<Features, Features{true, true, oren_nayar, false, false}>{});
+    }
+  };
   if (rare || !one || scene.surfaces.rows() > small_table) {
-    f(std::integral_constant<Features, Features{false, false, true, true}>{});
+    f(std::integral_constant<Features, Features{false, false, true, true, true}>{});
   } else if (scene.has_oren_nayar) {
-    f(std::integral_constant<Features, Features{true, true, true, false}>{});
+    usual.template operator()<true>();
   } else {
-    f(std::integral_constant<Features, Features{true, true, false, false}>{});
+    usual.template operator()<false>();
   }
 }
 
