@@ -76,7 +76,8 @@ TEST(Compare, SplitShowsAAtTheLeftAndBAtTheRight) {
   Offscreen window(small_room(), window_width, window_height);
   hold_and_change(window);
   compare_by(window, CompareView::split);
-  const Image &a = window.state().frame->mean, &b = window.state().compare.held.frame->mean;
+  // Copies: the frame on the screen is another when its error has come.
+  const Image a = window.state().frame->mean, b = window.state().compare.held.frame->mean;
   expect_shown(window, a, window.state().display, 0, image_width / 2 - 1);
   expect_shown(window, b, window.state().display, image_width / 2 + 1, image_width);
 
@@ -112,7 +113,8 @@ TEST(Compare, KeyFlipsToBAndBack) {
 TEST(Compare, DifferenceIsBrightenedByExposureAndRelativeErrorIsOnAScale) {
   Offscreen window(small_room(), window_width, window_height);
   hold_and_change(window);
-  const Image &a = window.state().frame->mean, &b = window.state().compare.held.frame->mean;
+  // Copies: the frame on the screen is another when its error has come.
+  const Image a = window.state().frame->mean, b = window.state().compare.held.frame->mean;
   Edits edits;
   edits.display = Display{.exposure = 2};
   window.apply(edits);
@@ -140,7 +142,8 @@ TEST(Compare, OtherSizeIsRefusedWithAReason) {
 TEST(Compare, GoesToTheWorstPixelAndTellsIt) {
   Offscreen window(small_room(), window_width, window_height);
   hold_and_change(window);
-  const Image &a = window.state().frame->mean, &b = window.state().compare.held.frame->mean;
+  // Copies: the frame on the screen is another when its error has come.
+  const Image a = window.state().frame->mean, b = window.state().compare.held.frame->mean;
   const Pixel worst = worst_pixel(a, b);
   window.press("compare.worst");
   EXPECT_TRUE(window.state().inspect);
