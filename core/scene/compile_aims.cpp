@@ -80,6 +80,7 @@ void lower_aims(Lowering& l) {
   out.light_path_noise = static_cast<float>(flux * flux / (flux_times_radiance * std::numbers::pi * out.light_paths));
 
   std::vector<double> probability;
+  probability.reserve(aims.size());
   for (const Aim& aim : aims) probability.push_back(aim.flux / flux);
   const std::vector<AliasEntry> alias = alias_table(probability);
   out.aims = Table<AimColumn>(static_cast<int>(aims.size()));
