@@ -224,7 +224,7 @@ TEST(Session, GoingBackBringsTheSamplesBack) {
 // break.
 TEST(Session, CancelledPassIsNotLost) {
   Session session;
-  const Scene scene = small_scene(1000);
+  const Scene scene = small_scene(300);
   Scene other = scene;
   other.spheres[0].radius = 1;
   int samples = 0;
@@ -239,9 +239,9 @@ TEST(Session, CancelledPassIsNotLost) {
     session.post(other);
     std::this_thread::sleep_for(3ms);
   }
-  const FramePtr end = wait_until_finished(session, session.post(scene), 1000);
+  const FramePtr end = wait_until_finished(session, session.post(scene), 300);
   ASSERT_TRUE(end);
-  EXPECT_EQ(first_difference(end->mean.rgb, render(compile(scene), 1000).mean().rgb), -1);
+  EXPECT_EQ(first_difference(end->mean.rgb, render(compile(scene), 300).mean().rgb), -1);
 }
 
 // An edit of a large scene does not wait for the estimate of the pass that it interrupts; it is made up for.
