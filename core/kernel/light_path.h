@@ -6,6 +6,7 @@
 #include "kernel/emission.h"
 #include "kernel/pinhole.h"
 #include "kernel/random.h"
+#include "kernel/results.h"
 #include "kernel/shading.h"
 #include "kernel/trace.h"
 
@@ -50,7 +51,7 @@ class LightPathTracer {
         begin_paths(s, idle, next);
         next += free;
       }
-      if (next >= end() && free == lane_count<F> && !any(less(s.path, I(end())))) return write_out();
+      if (!any(less(s.path, I(end())))) return done_.flush(writer());
       const M ended = step(s);
       s.path = select(ended, I(end()), s.path);
     }
@@ -151,40 +152,25 @@ class LightPathTracer {
     const F weight = importance * light_path_share(scene_, importance) * F(std::numbers::inv_pi_v<float>);
     V radiance = s.flux * weight;
     if (surfaces_.has_rough()) radiance = radiance * surfaces_.diffuse_factor(at, wi, wo, at.cos_o, cos);
-    const auto place = static_cast<std::size_t>(done_);
-    compress<F, F>(radiance.x, seen, &done_r_[place]);
-    compress<F, F>(radiance.y, seen, &done_g_[place]);
-    compress<F, F>(radiance.z, seen, &done_b_[place]);
-    compress<I, F>(image.pixel, seen, &done_pixel_[place]);
-    done_ += std::popcount(bits(seen));
-    if (done_ >= done_capacity) write_out();
+    done_.add(radiance, image.pixel, seen, writer());
   }
 
-  void write_out() {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(done_); ++i)
-      splats_.push_back({done_pixel_[i], done_r_[i], done_g_[i], done_b_[i]});
-    done_ = 0;
+  auto writer() const {
+    return [&splats = splats_](std::int32_t pixel, float r, float g, float b) { splats.push_back({pixel, r, g, b}); };
   }
 
   const Settings& settings() const { return settings_of<features>(scene_); }
 
   static constexpr std::uint32_t light_path_seeds = 1u << 31;  ///< apart from all seeds of camera paths
   static constexpr std::uint32_t longest_sequence = 1u << 30;
-  static constexpr std::uint32_t hit_block = static_cast<std::uint32_t>(HitDimension::lamp) + shadow_dimensions;
-  static constexpr float largest_survival = 0.99f;  ///< so that light trapped in glass ends
-  static constexpr int done_capacity = 128;
-  template <class T>
-  using DoneArray = std::array<T, done_capacity + 2 * lane_count<F>>;
+  static constexpr std::uint32_t hit_block = hit_dimensions(1);
 
   const CompiledScene& scene_;
   const LightBlock& block_;
   std::vector<Splat>& splats_;
   Surfaces<F, features> surfaces_;
   std::array<std::int32_t, 2 * lane_count<F>> rank_;
-
-  int done_ = 0;
-  DoneArray<float> done_r_, done_g_, done_b_;
-  DoneArray<std::int32_t> done_pixel_;
+  Results<F> done_;
 };
 
 template <class F>

@@ -6,6 +6,7 @@
 #include "kernel/connect.h"
 #include "kernel/found_chain.h"
 #include "kernel/pinhole.h"
+#include "kernel/results.h"
 #include "kernel/shading.h"
 #include "kernel/trace.h"
 
@@ -72,7 +73,7 @@ class PathTracer {
       const M ended = step(s) & less(I(-1), s.path);
       finish(s, ended);
     }
-    write_out();
+    done_.flush(writer());
     if (connects()) connector_.finish(rgb_);
   }
 
@@ -166,26 +167,19 @@ class PathTracer {
   /// Where no limit of depth forbids another surface.
   M may_go_on(const PathState<F>& s) const { return less(s.depth, I(choices().max_depth - 1)); }
 
-  /// Notes what the paths that ended have gathered; without a loop over lanes, whose length could not be foretold.
+  /// Notes what the paths that ended have gathered.
   void finish(PathState<F>& s, const M& ended) {
-    const auto place = static_cast<std::size_t>(done_);
-    compress<F, F>(s.radiance.x, ended, &done_r_[place]);
-    compress<F, F>(s.radiance.y, ended, &done_g_[place]);
-    compress<F, F>(s.radiance.z, ended, &done_b_[place]);
-    compress<I, F>(s.path, ended, &done_path_[place]);
-    done_ += std::popcount(bits(ended));
-    if (done_ >= done_capacity) write_out();
+    done_.add(s.radiance, s.path, ended, writer());
     s.path = select(ended, I(-1), s.path);
   }
 
-  void write_out() {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(done_); ++i) {
-      float* out = rgb_ + 3 * static_cast<std::ptrdiff_t>(done_path_[i]);
-      out[0] = done_r_[i];
-      out[1] = done_g_[i];
-      out[2] = done_b_[i];
-    }
-    done_ = 0;
+  auto writer() const {
+    return [rgb = rgb_](std::int32_t path, float r, float g, float b) {
+      float* out = rgb + 3 * static_cast<std::ptrdiff_t>(path);
+      out[0] = r;
+      out[1] = g;
+      out[2] = b;
+    };
   }
 
   /// Random numbers of a hit; of several, number `k` of `count`.
@@ -309,13 +303,6 @@ class PathTracer {
 
   static constexpr float constant_survival = 0.75f;  ///< the report's
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
-  static constexpr float largest_survival =
-      0.99f;  ///< below 1, so that light trapped in glass ends; see compile_warnings.cpp
-
-  static constexpr int done_capacity = 128;  ///< paths that have ended before their radiance is written out
-  template <class T>
-  using DoneArray = std::array<T, done_capacity + 2 * lane_count<F>>;
-
   const CompiledScene& scene_;
   Surfaces<F, features> surfaces_;
   float* rgb_;
@@ -326,10 +313,7 @@ class PathTracer {
   bool mis_;
   bool connects_;
   Connector<F, features> connector_;
-
-  int done_ = 0;
-  DoneArray<float> done_r_, done_g_, done_b_;
-  DoneArray<std::int32_t> done_path_;
+  Results<F> done_;
 };
 
 template <class F>

@@ -19,6 +19,9 @@ struct Shading {
   Int<F> kind;
 };
 
+/// What roulette leaves at most, so that light trapped in glass ends; see compile_warnings.cpp.
+inline constexpr float largest_survival = 0.99f;
+
 /// Where a path goes on from glass.
 template <class F>
 struct GlassScatter {

@@ -51,7 +51,7 @@ enum class HitDimension : std::uint32_t { direction_u, direction_v, roulette, la
 inline constexpr std::uint32_t shadow_dimensions = 3;  ///< which lamp, u and v on it
 
 /// Number of dimensions in the block of a hit.
-inline std::uint32_t hit_dimensions(int shadow_rays) {
+constexpr std::uint32_t hit_dimensions(int shadow_rays) {
   return static_cast<std::uint32_t>(HitDimension::lamp) + shadow_dimensions * static_cast<std::uint32_t>(shadow_rays);
 }
 
