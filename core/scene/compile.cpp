@@ -143,7 +143,7 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   auto& list = glass ? l.out.glass_spheres : around_eye ? l.out.shells : l.out.spheres;
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   add_target(l, material, {c, sphere.radius}, surface, surface);
-  if (glass || (material.type == MaterialType::mirror && !around_eye)) l.specular_spheres.push_back({&sphere, surface});
+  if (is_specular(material) && (glass || !around_eye)) l.specular_spheres.push_back({&sphere, surface});
   if (material.type == MaterialType::light && !around_eye)
     l.lamps.push_back(
         {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
@@ -171,10 +171,7 @@ void fill_surfaces(Lowering& l) {
   for (std::size_t i = 0; i < l.surfaces.size(); ++i) {
     const Surface& s = l.surfaces[i];
     const Material& m = *s.material;
-    auto set = [&](Column c, double value) { table[c][i] = static_cast<float>(value); };
-    auto set3 = [&](Column first, const dvec3& v) {
-      for (int k = 0; k < 3; ++k) set(static_cast<Column>(static_cast<int>(first) + k), v[k]);
-    };
+    const TableRow<Column> row{table, i};
     const bool light = m.type == MaterialType::light;
     const bool glass = m.type == MaterialType::glass;
     const bool rough = m.type == MaterialType::oren_nayar && m.roughness > 0;
@@ -183,18 +180,18 @@ void fill_surfaces(Lowering& l) {
     const dvec3 emission = light ? m.radiance : glass || mirror ? dvec3{0} : m.emission;
     const double sigma2 = rough ? m.roughness * m.roughness : 0;
     const bool eon = m.type == MaterialType::eon && m.eon_roughness > 0;
-    set3(Column::normal_x, s.normal_or_center);
-    set(Column::inverse_radius, s.inverse_radius);
-    table[Column::kind][i] = std::bit_cast<float>(kind);
-    set3(Column::reflectance_r, light ? dvec3{0} : glass ? dvec3{1} : m.reflectance);
-    set3(Column::emission_r, emission);
-    set(Column::oren_nayar_a, eon ? eon_a(m.eon_roughness) : 1 - sigma2 / (2 * (sigma2 + 0.33)));
-    set(Column::oren_nayar_b, eon ? m.eon_roughness : 0.45 * sigma2 / (sigma2 + 0.09));
-    set(Column::eon, eon ? 1 : 0);
-    if (eon) set3(Column::eon_multiple_r, eon_multiple(m));
-    set(Column::oren_nayar_report, m.formula == OrenNayarFormula::report ? 1 : 0);
-    set(Column::eta, s.eta);
-    set(Column::schlick, m.fresnel == Fresnel::schlick ? 1 : 0);
+    row.set3(Column::normal_x, s.normal_or_center);
+    row.set(Column::inverse_radius, s.inverse_radius);
+    row.set_int(Column::kind, kind);
+    row.set3(Column::reflectance_r, light ? dvec3{0} : glass ? dvec3{1} : m.reflectance);
+    row.set3(Column::emission_r, emission);
+    row.set(Column::oren_nayar_a, eon ? eon_a(m.eon_roughness) : 1 - sigma2 / (2 * (sigma2 + 0.33)));
+    row.set(Column::oren_nayar_b, eon ? m.eon_roughness : 0.45 * sigma2 / (sigma2 + 0.09));
+    row.set(Column::eon, eon ? 1 : 0);
+    if (eon) row.set3(Column::eon_multiple_r, eon_multiple(m));
+    row.set(Column::oren_nayar_report, m.formula == OrenNayarFormula::report ? 1 : 0);
+    row.set(Column::eta, s.eta);
+    row.set(Column::schlick, m.fresnel == Fresnel::schlick ? 1 : 0);
     l.out.has_mirror |= mirror;
     l.out.has_glass |= glass;
     l.out.has_oren_nayar |= rough;

@@ -24,11 +24,14 @@ BoundingSphere bounding_sphere(const std::vector<dvec3>& vertices) {
   return {center, radius};
 }
 
+bool is_specular(const Material& material) {
+  return material.type == MaterialType::glass ||
+         (material.type == MaterialType::mirror && material.reflectance != dvec3{0});
+}
+
 void add_target(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
                 int last_surface) {
-  const bool black = material.type == MaterialType::mirror && material.reflectance == dvec3{0};
-  if ((material.type == MaterialType::mirror && !black) || material.type == MaterialType::glass)
-    l.targets.push_back({bounds, first_surface, last_surface});
+  if (is_specular(material)) l.targets.push_back({bounds, first_surface, last_surface});
 }
 
 namespace {
@@ -87,20 +90,14 @@ void lower_aims(Lowering& l) {
   for (std::size_t i = 0; i < aims.size(); ++i) {
     const LampPiece& lamp = l.lamps[aims[i].lamp];
     const BoundingSphere& bounds = l.targets[aims[i].target].bounds;
-    auto set = [&](AimColumn c, double value) { out.aims[c][i] = static_cast<float>(value); };
-    auto set_int = [&](AimColumn c, std::size_t value) {
-      out.aims[c][i] = std::bit_cast<float>(static_cast<std::int32_t>(value));
-    };
-    auto set3 = [&](AimColumn first, const dvec3& v) {
-      for (int c = 0; c < 3; ++c) set(static_cast<AimColumn>(static_cast<int>(first) + c), v[c]);
-    };
-    set_int(AimColumn::lamp, aims[i].lamp);
-    set3(AimColumn::center_x, bounds.center);
-    set(AimColumn::radius, bounds.radius);
-    set_int(AimColumn::target, aims[i].target);
-    set3(AimColumn::weight_r, lamp.radiance * (area_of(lamp) / probability[i] / out.light_paths));
-    set(AimColumn::alias_threshold, alias[i].threshold);
-    set_int(AimColumn::alias_other, alias[i].other);
+    const TableRow<AimColumn> row{out.aims, i};
+    row.set_int(AimColumn::lamp, static_cast<std::int32_t>(aims[i].lamp));
+    row.set3(AimColumn::center_x, bounds.center);
+    row.set(AimColumn::radius, bounds.radius);
+    row.set_int(AimColumn::target, static_cast<std::int32_t>(aims[i].target));
+    row.set3(AimColumn::weight_r, lamp.radiance * (area_of(lamp) / probability[i] / out.light_paths));
+    row.set(AimColumn::alias_threshold, alias[i].threshold);
+    row.set_int(AimColumn::alias_other, static_cast<std::int32_t>(alias[i].other));
   }
 }
 

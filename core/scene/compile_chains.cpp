@@ -51,7 +51,7 @@ void lower_chains(Lowering& l) {
   for (const auto& [sphere, surface] : l.specular_spheres) {
     const Material& m = l.material(sphere->material);
     const bool glass = m.type == MaterialType::glass;
-    if (is_in_room(l, *sphere) && (glass || m.reflectance != dvec3{0}))
+    if (is_in_room(l, *sphere))
       chains.push_back({to_floats(sphere->center - l.origin), static_cast<float>(sphere->radius), surface,
                         glass && is_empty(l, *sphere)});
   }

@@ -75,27 +75,22 @@ void lower_lamps(Lowering& l) {
   Table<LampColumn> table(static_cast<int>(l.lamps.size()));
   for (std::size_t i = 0; i < l.lamps.size(); ++i) {
     const LampPiece& p = l.lamps[i];
-    auto set3 = [&](LampColumn first, const dvec3& v) {
-      for (int k = 0; k < 3; ++k)
-        table[static_cast<LampColumn>(static_cast<int>(first) + k)][i] = static_cast<float>(v[k]);
-    };
-    auto set_int = [&](LampColumn c, int value) { table[c][i] = std::bit_cast<float>(value); };
-    set3(LampColumn::p_x, p.p);
-    set3(LampColumn::e1_x, p.e1);
-    set3(LampColumn::e2_x, p.e2);
-    set3(LampColumn::normal_x, p.normal);
-    set_int(LampColumn::shape, static_cast<int>(p.shape));
-    set_int(LampColumn::first_surface, p.first_surface);
-    set_int(LampColumn::last_surface, p.last_surface);
+    const TableRow<LampColumn> row{table, i};
+    row.set3(LampColumn::p_x, p.p);
+    row.set3(LampColumn::e1_x, p.e1);
+    row.set3(LampColumn::e2_x, p.e2);
+    row.set3(LampColumn::normal_x, p.normal);
+    row.set_int(LampColumn::shape, static_cast<int>(p.shape));
+    row.set_int(LampColumn::first_surface, p.first_surface);
+    row.set_int(LampColumn::last_surface, p.last_surface);
     const bool by_area = p.shape != LampShape::sphere && p.shape != LampShape::rectangle;
     const double inverse_choice = (by_area ? area_of(p) : 1) / probability[i];
-    set3(LampColumn::weight_r, p.radiance * inverse_choice);
-    auto set = [&](LampColumn c, double value) { table[c][i] = static_cast<float>(value); };
-    set(LampColumn::inverse_choice, inverse_choice);
-    set(LampColumn::length_1, length(p.e1));
-    set(LampColumn::length_2, length(p.e2));
-    table[LampColumn::alias_threshold][i] = static_cast<float>(alias[i].threshold);
-    set_int(LampColumn::alias_other, static_cast<int>(alias[i].other));
+    row.set3(LampColumn::weight_r, p.radiance * inverse_choice);
+    row.set(LampColumn::inverse_choice, inverse_choice);
+    row.set(LampColumn::length_1, length(p.e1));
+    row.set(LampColumn::length_2, length(p.e2));
+    row.set(LampColumn::alias_threshold, alias[i].threshold);
+    row.set_int(LampColumn::alias_other, static_cast<int>(alias[i].other));
     l.out.has_lamp_shape[static_cast<std::size_t>(p.shape)] = true;
   }
   for (int surface = 0; surface < l.out.surfaces.rows(); ++surface) {

@@ -59,29 +59,6 @@ std::vector<Piece> pieces_in_reach(const Lowering& l) {
   return all;
 }
 
-double distance_to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
-  const dvec3 ab = b - a;
-  const double along = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
-  return length(p - a - ab * along);
-}
-
-}  // namespace
-
-double distance_to_polygon(const dvec3& p, const std::vector<dvec3>& polygon) {
-  const HalfSpace plane = plane_of(polygon);
-  double distance = std::abs(dot(plane.n, p) - plane.d);
-  bool above = true;
-  double edge = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    above = above && dot(cross(plane.n, b - a), p - a) >= 0;
-    edge = std::min(edge, distance_to_segment(p, a, b));
-  }
-  return above ? distance : edge;
-}
-
-namespace {
-
 double distance_between_segments(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
   // Where the lines come nearest, if that is on both; else an end of one is nearest.
   const dvec3 u = b - a, v = d - c, w = a - c;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+
 #include "scene/compiled_scene.h"
 #include "scene/reach.h"
 
@@ -60,6 +62,23 @@ struct Lowering {
   }
 };
 
+/// A row of a table to be filled.
+template <class ColumnType>
+struct TableRow {
+  Table<ColumnType>& table;
+  std::size_t row;
+
+  void set(ColumnType c, double value) const { table[c][row] = static_cast<float>(value); }
+  /// In this column and the two after it.
+  void set3(ColumnType first, const glm::dvec3& v) const {
+    for (int k = 0; k < 3; ++k) set(static_cast<ColumnType>(static_cast<int>(first) + k), v[k]);
+  }
+  void set_int(ColumnType c, std::int32_t value) const { table[c][row] = std::bit_cast<float>(value); }
+};
+
+/// Glass, or a mirror that is not black.
+bool is_specular(const Material& material);
+
 std::array<float, 3> to_floats(const glm::dvec3& v);
 
 /// True for four vertices of a parallelogram, in order.
@@ -89,13 +108,11 @@ struct AliasEntry {
 std::vector<AliasEntry> alias_table(const std::vector<double>& probability);
 
 BoundingSphere bounding_sphere(const std::vector<glm::dvec3>& vertices);
-/// Does nothing for a material that is neither mirror nor glass.
+/// Does nothing for a material that is not specular.
 void add_target(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
                 int last_surface);
 /// The table that light paths begin from, and how many there are; after lower_lamps().
 void lower_aims(Lowering& l);
-
-double distance_to_polygon(const glm::dvec3& p, const std::vector<glm::dvec3>& polygon);
 
 /// The spheres over which diffuse surfaces are connected to lamps; after lower_lamps().
 void lower_chains(Lowering& l);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 
 namespace glimt {
@@ -26,6 +27,25 @@ double area_of(const std::vector<dvec3>& vertices) {
   for (std::size_t i = 2; i < vertices.size(); ++i)
     sum += cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
   return length(sum) / 2;
+}
+
+double distance_to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
+  const dvec3 ab = b - a;
+  const double along = std::clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0);
+  return length(p - a - ab * along);
+}
+
+double distance_to_polygon(const dvec3& p, const std::vector<dvec3>& polygon) {
+  const HalfSpace plane = plane_of(polygon);
+  double distance = std::abs(dot(plane.n, p) - plane.d);
+  bool above = true;
+  double edge = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    above = above && dot(cross(plane.n, b - a), p - a) >= 0;
+    edge = std::min(edge, distance_to_segment(p, a, b));
+  }
+  return above ? distance : edge;
 }
 
 std::vector<dvec3> clip(const std::vector<dvec3>& polygon, const HalfSpace& h) {

@@ -29,6 +29,10 @@ HalfSpace plane_of(const std::vector<glm::dvec3>& vertices);
 
 double area_of(const std::vector<glm::dvec3>& vertices);
 
+double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b);
+/// From a point to a convex polygon.
+double distance_to_polygon(const glm::dvec3& p, const std::vector<glm::dvec3>& polygon);
+
 /// What of a convex polygon lies in the half space; empty where nothing does.
 std::vector<glm::dvec3> clip(const std::vector<glm::dvec3>& polygon, const HalfSpace& half_space);
 
