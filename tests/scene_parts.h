@@ -29,6 +29,12 @@ inline Material light(std::string name, const dvec3& radiance) {
   return {.name = std::move(name), .type = MaterialType::light, .radiance = radiance};
 }
 
+/// A square that shines down, of that edge, centred on the y axis.
+inline Polygon square_lamp(double edge, double y, const std::string& material = "lamp") {
+  const double h = edge / 2;
+  return {"lamp", material, {{-h, y, -h}, {h, y, -h}, {h, y, h}, {-h, y, h}}};
+}
+
 /// The six walls of an axis-parallel box, fronts inwards.
 inline std::vector<Polygon> box(const dvec3& low, const dvec3& high, const std::string& material) {
   const auto [a, b, c] = std::array{low.x, low.y, low.z};

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "pictures.h"
+#include "same_picture.h"
 #include "scene_parts.h"
 
 using namespace glimt;
@@ -119,23 +119,9 @@ Series render_variant(Scene scene, const Variant& v, int seeds, int first_seed, 
   return series;
 }
 
-struct Named {
-  std::string name;
-  Series series;
-  int first_seed;
-};
-
-/// Overall means, and means of blocks, of two series of pictures of one thing; `level` for each comparison.
-void expect_same(const Named& a, const Named& b, double level, const std::string& scene) {
-  const auto check = [&](const Estimate& x, const Estimate& y, const std::string& where) {
-    EXPECT_GT(likelihood(x, y), level) << scene << ", " << where << ": " << a.name << " (seeds from " << a.first_seed
-                                       << ") " << x.mean << " +- " << x.error << ", " << b.name << " (seeds from "
-                                       << b.first_seed << ") " << y.mean << " +- " << y.error;
-  };
-  check(a.series.overall(), b.series.overall(), "all pixels");
-  for (std::size_t i = 0; i < a.series.size(); ++i)
-    check(a.series.block(i), b.series.block(i),
-          "block " + std::to_string(i / 3) + ", channel " + std::to_string(i % 3));
+/// The seeds are named so that a failure can be replayed.
+Named named(const Variant& v, int first_seed, Series series) {
+  return {std::string(v.name) + " (seeds from " + std::to_string(first_seed) + ")", std::move(series)};
 }
 
 class Estimators : public testing::TestWithParam<Scene (*)()> {};
@@ -147,22 +133,18 @@ TEST_P(Estimators, AgreePairwise) {
   std::vector<Named> all;
   for (const Variant& v : variants) {
     const int first_seed = 1 + 100 * static_cast<int>(all.size());
-    all.push_back({v.name, render_variant(scene, v, seeds, first_seed, 16), first_seed});
+    all.push_back(named(v, first_seed, render_variant(scene, v, seeds, first_seed, 16)));
     const Estimate e = all.back().series.overall();
     EXPECT_LT(e.error, (effort > 1 ? 0.01 : 0.05) * e.mean) << v.name << ": too few paths to say anything";
   }
   const auto n = static_cast<double>(all.size());
-  const double level = sidak(alpha, n * (n - 1) / 2 * static_cast<double>(all[0].series.size() + 1));
+  const double level = sidak(alpha, n * (n - 1) / 2 * comparisons(all[0].series));
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) expect_same(all[k], all[i], level, scene.name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Estimators, testing::Values(lamps_of_all_shapes, with_mirror_and_glass, rectangles),
-                         [](const auto& scene) {
-                           std::string name = scene.param().name;
-                           std::erase(name, ' ');
-                           return name;
-                         });
+                         [](const auto& scene) { return case_name(scene.param()); });
 
 // A lamp that is half behind the wall lights the room with its other half only, whatever it is made of.
 TEST(HiddenLamps, NaiveIsPathWhereWallsHideLamps) {
@@ -180,9 +162,9 @@ TEST(HiddenLamps, NaiveIsPathWhereWallsHideLamps) {
     std::vector<Named> all;
     for (const Variant& v : {variants[0], variants[1], variants[5]}) {
       const int first_seed = 5001 + 100 * static_cast<int>(all.size());
-      all.push_back({v.name, render_variant(scene, v, 32, first_seed, 8), first_seed});
+      all.push_back(named(v, first_seed, render_variant(scene, v, 32, first_seed, 8)));
     }
-    const double level = sidak(alpha, 2.0 * 3 * static_cast<double>(all[0].series.size() + 1));
+    const double level = sidak(alpha, 2.0 * 3 * comparisons(all[0].series));
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) expect_same(all[k], all[i], level, scene.name);
   }

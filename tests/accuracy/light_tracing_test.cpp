@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "film/statistics.h"
-#include "pictures.h"
+#include "same_picture.h"
 #include "scene/scene_file.h"
 #include "scene_parts.h"
 #include "stability/samples.h"
@@ -21,8 +21,7 @@ Scene room_with_lamp(const std::string& name, double edge) {
   scene.materials = {lambertian("white", {0.7, 0.6, 0.5}), light("lamp", dvec3{4 / (edge * edge)}), glass("glass", 1.5),
                      mirror("mirror", {0.9, 0.8, 0.9})};
   scene.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
-  const double h = edge / 2;
-  scene.polygons.push_back({"lamp", "lamp", {{-h, 0.95, -h}, {h, 0.95, -h}, {h, 0.95, h}, {-h, 0.95, h}}});
+  scene.polygons.push_back(square_lamp(edge, 0.95));
   scene.camera = {{0, 0, 1.9}, {0, -0.3, 0}, {0, 1, 0}, 75};
   scene.image = {32, 32};
   return scene;
@@ -95,11 +94,6 @@ std::vector<Scene> scenes() {
   return all;
 }
 
-struct Named {
-  std::string name;
-  Series series;
-};
-
 /// Pictures by those settings; `first_seed` is their own, so that no two series share random numbers.
 Series pictures(Scene scene, const std::vector<Caustics>& parts, double light_paths, int samples, int first_seed) {
   Series series;
@@ -117,15 +111,6 @@ Series pictures(Scene scene, const std::vector<Caustics>& parts, double light_pa
   }
   return series;
 }
-
-}  // namespace
-
-namespace glimt {
-/// What GoogleTest names a case by.
-static void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
-}  // namespace glimt
-
-namespace {
 
 class LightPaths : public testing::TestWithParam<Scene> {};
 
@@ -149,28 +134,15 @@ TEST_P(LightPaths, AndChanceMakeOnePicture) {
   all.push_back({"depth 4, light paths", pictures(scene, {Caustics::on}, 0.2, samples, 80001)});
 
   const auto n = static_cast<double>(whole);
-  const double level = sidak(alpha, (n * (n - 1) / 2 + 1) * static_cast<double>(all[0].series.size() + 1));
+  const double level = sidak(alpha, (n * (n - 1) / 2 + 1) * comparisons(all[0].series));
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      if ((i < whole) != (k < whole)) continue;
-      const auto check = [&](const Estimate& x, const Estimate& y, const std::string& where) {
-        EXPECT_GT(likelihood(x, y), level)
-            << scene.name << ", " << where << ": " << all[i].name << " " << x.mean << " +- " << x.error << ", "
-            << all[k].name << " " << y.mean << " +- " << y.error;
-      };
-      const Series &a = all[i].series, &b = all[k].series;
-      check(a.overall(), b.overall(), "all pixels");
-      for (std::size_t j = 0; j < a.size(); ++j)
-        check(a.block(j), b.block(j), "block " + std::to_string(j / 3) + ", channel " + std::to_string(j % 3));
+      if ((i < whole) == (k < whole)) expect_same(all[i], all[k], level, scene.name);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths, testing::ValuesIn(scenes()), [](const auto& scene) {
-  std::string name;
-  for (const char c : scene.param.name)
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return case_name(scene.param); });
 
 // A scene without mirrors or glass has nothing to aim at: not a bit of its picture depends on the setting.
 TEST(LightPaths, AreNoneWithoutMirrorsAndGlass) {

@@ -2,7 +2,7 @@
 // probability of a false alarm is alpha for each test.
 #include <gtest/gtest.h>
 
-#include "pictures.h"
+#include "same_picture.h"
 #include "scene_parts.h"
 
 using namespace glimt;
@@ -20,8 +20,7 @@ Scene mirror_room(const std::string& name, double edge = 1) {
                      mirror("mirror", {0.9, 0.8, 0.9})};
   scene.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
   scene.polygons[2].material = "mirror";
-  const double h = edge / 2;
-  scene.polygons.push_back({"lamp", "lamp", {{-h, 0.95, -h}, {h, 0.95, -h}, {h, 0.95, h}, {-h, 0.95, h}}});
+  scene.polygons.push_back(square_lamp(edge, 0.95));
   scene.camera = {{0, 0.2, -1}, {0, -0.3, -2}, {0, 1, 0}, 80};
   scene.image = {32, 32};
   return scene;
@@ -103,20 +102,6 @@ std::vector<Scene> scenes() {
   return all;
 }
 
-struct Named {
-  std::string name;
-  Series series;
-};
-
-}  // namespace
-
-namespace glimt {
-/// What GoogleTest names a case by.
-static void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
-}  // namespace glimt
-
-namespace {
-
 class SphereConnected : public testing::TestWithParam<Scene> {};
 
 TEST_P(SphereConnected, AndChanceMakeOnePicture) {
@@ -156,27 +141,14 @@ TEST_P(SphereConnected, AndChanceMakeOnePicture) {
       {{"chance, depth 4", pictures(shallower, false)}, {"connections, depth 4", pictures(shallower, true)}},
       {{"chance, all light", pictures(whole, false)}, {"connections, all light", pictures(whole, true)}}};
 
-  const double level = sidak(alpha, 6 * static_cast<double>(groups[0][0].series.size() + 1));
+  const double level = sidak(alpha, 6 * comparisons(groups[0][0].series));
   for (const auto& group : groups)
     for (std::size_t i = 0; i < group.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k) {
-        const auto check = [&](const Estimate& x, const Estimate& y, const std::string& where) {
-          EXPECT_GT(likelihood(x, y), level) << where << ": " << group[i].name << " " << x.mean << " +- " << x.error
-                                             << ", " << group[k].name << " " << y.mean << " +- " << y.error;
-        };
-        const Series &a = group[i].series, &b = group[k].series;
-        check(a.overall(), b.overall(), "all pixels");
-        for (std::size_t j = 0; j < a.size(); ++j)
-          check(a.block(j), b.block(j), "block " + std::to_string(j / 3) + ", channel " + std::to_string(j % 3));
-      }
+      for (std::size_t k = 0; k < i; ++k) expect_same(group[i], group[k], level, GetParam().name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SphereConnected, testing::ValuesIn(scenes()), [](const auto& scene) {
-  std::string name;
-  for (const char c : scene.param.name)
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, SphereConnected, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return case_name(scene.param); });
 
 // A scene without specular spheres has nothing to connect over: not a bit of its picture depends on the setting.
 TEST(SphereConnections, AreNoneWithoutSpecularSpheres) {

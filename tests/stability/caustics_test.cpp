@@ -15,8 +15,7 @@ Scene ball_on_floor(double edge) {
   Scene scene;
   scene.materials = {lambertian("white", dvec3{0.7}), light("lamp", dvec3{4 / (edge * edge)}), glass("glass", 1.5)};
   scene.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
-  const double h = edge / 2;
-  scene.polygons.push_back({"lamp", "lamp", {{-h, 0.95, -h}, {h, 0.95, -h}, {h, 0.95, h}, {-h, 0.95, h}}});
+  scene.polygons.push_back(square_lamp(edge, 0.95));
   scene.spheres = {{"ball", "glass", {0, 0.3, 0}, 0.4}};
   scene.camera = {{0, -0.2, 1.9}, {0, -1, 0.2}, {0, 1, 0}, 40};
   scene.image = {48, 48};

@@ -19,8 +19,7 @@ Scene box_with_lamp(double edge) {
   scene.materials = {lambertian("floor", dvec3{0.5}), lambertian("black", dvec3{0}), light("lamp", dvec3{2})};
   scene.polygons = box({-2, 0, -2}, {2, 3, 2}, "black");
   scene.polygons[0].material = "floor";
-  const double h = edge / 2, y = edge < 4 ? 2.5 : 3;
-  scene.polygons.push_back({"lamp", "lamp", {{-h, y, -h}, {h, y, -h}, {h, y, h}, {-h, y, h}}});
+  scene.polygons.push_back(square_lamp(edge, edge < 4 ? 2.5 : 3));
   if (edge == 4) scene.polygons.erase(scene.polygons.begin() + 1);
   scene.camera = {{0.5, 1, 0.25}, {0.5, 0, 0.25}, {1, 0, 0}, 50};
   scene.render.sampler = Sampler::independent;
