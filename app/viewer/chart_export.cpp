@@ -1,7 +1,5 @@
 #include "viewer/chart_export.h"
 
-#include <algorithm>
-
 #include "chart/runs.h"
 
 namespace glimt {

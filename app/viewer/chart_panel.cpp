@@ -1,7 +1,6 @@
 #include "viewer/chart_panel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "viewer/style.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "viewer/panels.h"
 #include "viewer/plot.h"

@@ -1,11 +1,9 @@
-#include <algorithm>
 #include <array>
 #include <string>
 
 #include "viewer/compare_actions.h"
 #include "viewer/field_widgets.h"
 #include "viewer/panels.h"
-#include "viewer/style.h"
 #include "viewer/widgets.h"
 
 namespace glimt {

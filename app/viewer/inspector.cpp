@@ -3,8 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "viewer/compare_actions.h"
 #include "viewer/plot.h"
