@@ -9,25 +9,18 @@
 namespace glimt {
 namespace {
 
-/// intercept + slope x through two points.
+/// intercept + slope x.
 struct Line {
   double intercept, slope;
 };
 
-Line line_through(double x0, double y0, double x1, double y1) {
-  const double slope = (y1 - y0) / (x1 - x0);
-  return {y0 - slope * x0, slope};
-}
-
-/// The line with neither part below 0, which chance alone can bring about: it goes through the means instead.
-Line not_negative(Line line, double x0, double y0, double x1, double y1) {
-  if (line.slope < 0) return {(y0 + y1) / 2, 0};
-  if (line.intercept < 0) return {0, (y0 + y1) / (x0 + x1)};
-  return line;
-}
-
+/// The line through two points with neither part below 0, which chance alone can bring about: it then goes through the
+/// means instead.
 Line fitted(double x0, double y0, double x1, double y1) {
-  return not_negative(line_through(x0, y0, x1, y1), x0, y0, x1, y1);
+  const double slope = (y1 - y0) / (x1 - x0), intercept = y0 - slope * x0;
+  if (slope < 0) return {(y0 + y1) / 2, 0};
+  if (intercept < 0) return {0, (y0 + y1) / (x0 + x1)};
+  return {intercept, slope};
 }
 
 }  // namespace
