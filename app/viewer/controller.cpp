@@ -89,7 +89,6 @@ void Controller::apply(const Edits& edits) {
   if (edits.open) open(*edits.open);
   if (edits.save) save(*edits.save);
   if (edits.toggle_pause) session_.set_paused(!session_.paused());
-  state_.paused = session_.paused();
   if (edits.restart) session_.restart();
   if (edits.snapshot) want_snapshot(false);
   if (edits.snapshot_exr) want_snapshot(true);
