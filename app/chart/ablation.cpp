@@ -1,7 +1,6 @@
 #include "chart/ablation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "scene/fields.h"
@@ -68,12 +67,6 @@ struct AddPieces {
   template <class T>
   void operator()(T Settings::*) const {}
 };
-
-double seconds_of_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution) {
-  const auto start = std::chrono::steady_clock::now();
-  render_pass(scene, film, count, execution);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Renders both in turn, a part at a time, so that what else the machine does hits both alike. Returns the time of the
 /// first over that of the second.

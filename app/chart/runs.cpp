@@ -10,12 +10,6 @@
 namespace glimt {
 namespace {
 
-double seconds_of_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution) {
-  const auto start = std::chrono::steady_clock::now();
-  render_pass(scene, film, count, execution);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// The first pass also pays for threads, memory and caches: it is not measured.
 void warm_up(std::span<const Variant> variants, const Execution& execution) {
   for (const Variant& variant : variants) {
@@ -59,6 +53,12 @@ std::string csv_text(const std::string& text) {
 }
 
 }  // namespace
+
+double seconds_of_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution) {
+  const auto start = std::chrono::steady_clock::now();
+  render_pass(scene, film, count, execution);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 std::vector<Measurement> measure(std::span<Variant> variants, const Plan& plan, const Image* reference,
                                  const std::function<void(double)>& report) {

@@ -35,6 +35,9 @@ struct Measurement {
   std::optional<Comparison> error{};  ///< against the reference, where there is one
 };
 
+/// Adds `count` samples to every pixel of the film. Returns the wall-clock time it took.
+double seconds_of_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution);
+
 /// Renders every variant with plan.seeds seeds from its own on, and measures after 1, 2, 4, ... samples and after the
 /// last. Variants take turns at every step, so that what else the machine does hits all alike; how far each goes is
 /// decided with the first seed. `reference` may be null. `report` is called after each step with the share done.
