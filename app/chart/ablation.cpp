@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chart/words.h"
 #include "scene/fields.h"
 
 namespace glimt {
 namespace {
-
-std::string words(std::string_view key) {
-  std::string text(key);
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
 
 bool has_material(const Scene& scene, bool (*is)(const Material&)) {
   const auto used = [&](const auto& objects) {

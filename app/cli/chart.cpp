@@ -7,6 +7,7 @@
 
 #include "chart/reference.h"
 #include "chart/runs.h"
+#include "chart/words.h"
 #include "cli/ablate.h"
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
@@ -34,8 +35,7 @@ Variant make_variant(const std::string& name, const SceneOptions& options) {
     std::string part = name.substr(begin, end - begin);
     overrides.push_back((begin == 0 ? "render.method=" : "render.") + part);
     std::ranges::replace(part, '=', ' ');
-    std::ranges::replace(part, '_', ' ');
-    label += (label.empty() ? "" : ", ") + part;
+    label += (label.empty() ? "" : ", ") + words(part);
   }
   try {
     return {name, label, compile(read_scene(options.scene, overrides))};

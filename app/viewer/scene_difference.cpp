@@ -1,24 +1,18 @@
 #include "viewer/scene_difference.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <set>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "chart/words.h"
 #include "scene/fields.h"
 #include "scene/pick.h"
 #include "viewer/edit.h"
 
 namespace glimt {
 namespace {
-
-std::string words(std::string_view key) {
-  std::string text(key);
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
 
 std::string text_of(int value) { return std::to_string(value); }
 std::string text_of(double value) {
