@@ -1,14 +1,8 @@
 #include "viewer/compare_actions.h"
 
+#include "viewer/labels.h"
+
 namespace glimt {
-namespace {
-
-std::string size_text(const ImageSize& size) {
-  return std::to_string(size.width) + " \u00D7 " + std::to_string(size.height);
-}
-
-}  // namespace
-
 Held picture_b(const ViewerState& state) {
   if (state.compare.with_reference && state.chart.reference) return {state.chart.reference->frame, "reference"};
   Held held = state.compare.held;

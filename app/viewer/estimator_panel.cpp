@@ -6,6 +6,7 @@
 
 #include "scene/fields.h"
 #include "viewer/field_widgets.h"
+#include "viewer/labels.h"
 #include "viewer/panels.h"
 #include "viewer/style.h"
 #include "viewer/widgets.h"
@@ -39,9 +40,6 @@ bool edit_error(const Field<Settings>& field, double& error) {
 bool edit_size(ImageSize& size) {
   const int most = static_cast<int>(image_fields()[0].max);
   constexpr std::array<ImageSize, 5> usual{{{400, 400}, {800, 600}, {1024, 1024}, {1280, 720}, {1920, 1080}}};
-  const auto text_of = [](const ImageSize& s) {
-    return std::to_string(s.width) + " \u00D7 " + std::to_string(s.height);
-  };
   begin_row("Image size",
             "Width and height, pixels.\nDrag, or Ctrl+click to type a number; the arrow has usual sizes.");
   ImGui::PushID("size");
@@ -54,7 +52,7 @@ bool edit_size(ImageSize& size) {
   ImGui::SameLine(0, gap);
   if (ImGui::BeginCombo("##usual", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft)) {
     for (const ImageSize& s : usual) {
-      if (ImGui::Selectable(text_of(s).c_str(), s == size)) {
+      if (ImGui::Selectable(size_text(s).c_str(), s == size)) {
         size = s;
         changed = true;
       }

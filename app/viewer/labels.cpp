@@ -64,4 +64,8 @@ std::string_view unit_of(std::string_view key) {
   return known != nullptr ? known->unit : std::string_view();
 }
 
+std::string size_text(const ImageSize& size) {
+  return std::to_string(size.width) + " \u00D7 " + std::to_string(size.height);
+}
+
 }  // namespace glimt

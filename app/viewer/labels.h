@@ -3,7 +3,9 @@
 #include <string>
 #include <string_view>
 
-/// How the names of the field table (scene/fields.h) are said in the window.
+#include "scene/scene.h"
+
+/// How the field table (scene/fields.h) and its values are said in the window.
 namespace glimt {
 
 /// A key or value in words: "shadow_rays" becomes "Shadow rays", "oren-nayar" "Oren-Nayar".
@@ -14,5 +16,8 @@ std::string sentence(std::string_view doc);
 
 /// The unit of a field's value, or nothing.
 std::string_view unit_of(std::string_view key);
+
+/// "400 × 300".
+std::string size_text(const ImageSize& size);
 
 }  // namespace glimt

@@ -10,6 +10,7 @@
 #include "scene/fields.h"
 #include "scene/pick.h"
 #include "viewer/edit.h"
+#include "viewer/labels.h"
 
 namespace glimt {
 namespace {
@@ -108,10 +109,6 @@ class Finder {
       add(owner + "size", owner + "size " + text_of(a), owner + "size " + text_of(b));
     else
       add(owner + "place", owner + "not moved", owner + "moved");
-  }
-
-  static std::string size_text(const ImageSize& size) {
-    return std::to_string(size.width) + " \u00D7 " + std::to_string(size.height);
   }
 
   const Scene &from_, &to_;

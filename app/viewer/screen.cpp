@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "viewer/chart_panel.h"
+#include "viewer/labels.h"
 #include "viewer/layout.h"
 #include "viewer/style.h"
 
@@ -223,8 +224,7 @@ void Screen::draw_status(const ViewerState& state, const Rect& place, const Plac
 
   std::string size;
   if (state.frame) {
-    size = std::to_string(state.frame->size.width) + " \u00D7 " + std::to_string(state.frame->size.height) + " at " +
-           std::to_string(std::lround(picture.zoom * 100)) + " %     F1 help";
+    size = size_text(state.frame->size) + " at " + std::to_string(std::lround(picture.zoom * 100)) + " %     F1 help";
   }
   const float width = ImGui::GetContentRegionAvail().x;
   const float size_width = ImGui::CalcTextSize(size.c_str()).x;
