@@ -100,13 +100,7 @@ void draw_error_page(const ViewerState& state, const std::optional<PlotPoint>& p
 }  // namespace
 
 void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests) {
-  ImGui::SetNextWindowPos({place.x, place.y});
-  ImGui::SetNextWindowSize({place.width, place.height});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(12), style::scaled(8)});
-  ImGui::Begin("chart", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus);
-  ImGui::PopStyleVar();
+  begin_fixed_window("chart", place, 12, 8);
   // The list is at the right of a wide panel and below in a tall one.
   const ImVec2 at = ImGui::GetCursorScreenPos(), free = ImGui::GetContentRegionAvail();
   const float gap = style::scaled(14);

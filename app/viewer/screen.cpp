@@ -18,14 +18,6 @@
 namespace glimt {
 namespace {
 
-constexpr auto fixed_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                              ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
-
-void place_window(const Rect& place) {
-  ImGui::SetNextWindowPos({place.x, place.y});
-  ImGui::SetNextWindowSize({place.width, place.height});
-}
-
 /// All that decides what a picture looks like, but for what its textures hold.
 std::string bytes_of(const ImDrawData& data) {
   std::string bytes;
@@ -152,10 +144,7 @@ void Screen::carry_out(const Requests& requests, const ViewerState& state, Edits
 }
 
 void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests) {
-  place_window(place);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(16), style::scaled(14)});
-  ImGui::Begin("controls", nullptr, fixed_window);
-  ImGui::PopStyleVar();
+  begin_fixed_window("controls", place, 16, 14);
   draw_progress_panel(state);
   ImGui::Dummy({0, style::scaled(2)});
   draw_actions_panel(state, edits, requests);
@@ -217,11 +206,7 @@ void Screen::draw_hint(const Rect& area) const {
 }
 
 void Screen::draw_status(const ViewerState& state, const Rect& place, const Placement& picture) {
-  place_window(place);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(12), style::scaled(5)});
-  ImGui::Begin("status", nullptr, fixed_window | ImGuiWindowFlags_NoNav);
-  ImGui::PopStyleVar();
-
+  begin_fixed_window("status", place, 12, 5, ImGuiWindowFlags_NoNav);
   std::string size;
   if (state.frame) {
     size = size_text(state.frame->size) + " at " + std::to_string(std::lround(picture.zoom * 100)) + " %     F1 help";

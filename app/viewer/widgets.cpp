@@ -93,6 +93,16 @@ void note_widget(const std::string& name) {
   }
 }
 
+void begin_fixed_window(const char* name, const Rect& place, float beside, float above, ImGuiWindowFlags flags) {
+  ImGui::SetNextWindowPos({place.x, place.y});
+  ImGui::SetNextWindowSize({place.width, place.height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style::scaled(beside), style::scaled(above)});
+  ImGui::Begin(name, nullptr,
+               flags | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::PopStyleVar();
+}
+
 void heading(const char* text) {
   ImGui::Dummy({0, style::scaled(4)});
   ImGui::PushFont(style::heading_font());

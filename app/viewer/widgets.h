@@ -18,6 +18,11 @@ using WidgetRects = std::map<std::string, Rect>;
 /// Notes the place of the control drawn last, where the screen asked for it.
 void note_widget(const std::string& name);
 
+/// Begins a part of the window that stays where it is, with room at its sides and above and below, in design units.
+/// ImGui::End() ends it.
+void begin_fixed_window(const char* name, const Rect& place, float beside, float above,
+                        ImGuiWindowFlags flags = ImGuiWindowFlags_None);
+
 /// A heading with a line of space above it.
 void heading(const char* text);
 
