@@ -5,6 +5,8 @@
 
 namespace glimt {
 
+bool same_size(const Image& a, const Image& b) { return a.width == b.width && a.height == b.height; }
+
 Image difference(const Image& a, const Image& b) {
   Image result = a;
   for (std::size_t i = 0; i < result.rgb.size(); ++i) result.rgb[i] = std::abs(a.rgb[i] - b.rgb[i]);

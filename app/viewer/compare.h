@@ -30,6 +30,8 @@ struct Compare {
   float line = 0.5F;            ///< of the split: share of the picture's width
 };
 
+bool same_size(const Image& a, const Image& b);
+
 /// Two pictures of one size.
 Image difference(const Image& a, const Image& b);
 Image relative_error(const Image& a, const Image& b);

@@ -11,6 +11,8 @@ Held picture_b(const ViewerState& state) {
   return held;
 }
 
+bool can_hold(const ViewerState& state) { return state.frame && state.frame->samples > 0; }
+
 Held picture_now(const ViewerState& state) {
   const Curve* curve = state.chart.curves.current();
   return {state.frame, label_of_picture(state), curve ? curve->id : 0};

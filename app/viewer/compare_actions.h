@@ -9,6 +9,8 @@ namespace glimt {
 /// What the picture is compared with; its frame is null where there is nothing.
 Held picture_b(const ViewerState& state);
 
+/// Whether the picture is more than a preview.
+bool can_hold(const ViewerState& state);
 /// The picture as it is now, to be held.
 Held picture_now(const ViewerState& state);
 

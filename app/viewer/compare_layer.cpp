@@ -40,7 +40,7 @@ std::shared_ptr<const Frame> CompareLayer::compared(const std::shared_ptr<const 
                                                     const std::shared_ptr<const Frame>& b, CompareView view) {
   if (a == a_ && b == b_ && view == view_) return result_;
   // A preview has fewer pixels: the comparison before it stays.
-  if (a->mean.width != b->mean.width || a->mean.height != b->mean.height) return result_;
+  if (!same_size(a->mean, b->mean)) return result_;
   auto result = std::make_shared<Frame>();
   result->size = a->size;
   if (view == CompareView::difference)

@@ -31,8 +31,7 @@ void draw_compare_panel(const ViewerState& state, Edits& edits, Requests& reques
     draw_colour_scale("Relative error", "The root of the mean over channels of (A - B)\u00B2 / (B\u00B2 + 0.01)",
                       colour_scale(View::error));
   ButtonRow row(4);
-  if (row.button("Hold", "compare.hold", "Hold the picture as it is now, as B. Key: H",
-                 state.frame && state.frame->samples > 0)) {
+  if (row.button("Hold", "compare.hold", "Hold the picture as it is now, as B. Key: H", can_hold(state))) {
     compare.held = picture_now(state);
     changed = true;
   }

@@ -57,7 +57,7 @@ std::vector<std::array<std::string, 2>> pixel_lines(const ViewerState& state, co
   lines.push_back({"Samples", std::to_string(frame.samples)});
   if (!obstacle_to_compare(state).empty()) return lines;
   const Image& b = picture_b(state).frame->mean;
-  if (b.width != frame.mean.width || b.height != frame.mean.height) return lines;
+  if (!same_size(frame.mean, b)) return lines;
   lines.push_back({"B", three(b.pixel(pixel.x, pixel.y))});
   lines.push_back(
       {"Relative error",

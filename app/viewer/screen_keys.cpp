@@ -19,7 +19,7 @@ void Screen::press(char letter, const ViewerState& state, Edits& edits) {
     edits.chart.view = view;
   }
   Compare compare = state.compare;
-  if (letter == 'h' && state.frame && state.frame->samples > 0) {
+  if (letter == 'h' && can_hold(state)) {
     compare.held = picture_now(state);
     edits.compare = compare;
   }
@@ -35,7 +35,7 @@ void Screen::press(char letter, const ViewerState& state, Edits& edits) {
 
 void Screen::go_to_worst_pixel(const ViewerState& state, Edits& edits) {
   const Held b = picture_b(state);
-  if (!state.frame || !obstacle_to_compare(state).empty() || state.frame->mean.width != b.frame->mean.width) return;
+  if (!state.frame || !obstacle_to_compare(state).empty() || !same_size(state.frame->mean, b.frame->mean)) return;
   const Pixel worst = worst_pixel(state.frame->mean, b.frame->mean);
   const auto share = [](int pixel, int pixels) {
     return (static_cast<float>(pixel) + 0.5F) / static_cast<float>(pixels);
