@@ -1,10 +1,9 @@
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "app/offscreen.h"
+#include "app/own_folder.h"
 #include "film/image_file.h"
 #include "film/metadata.h"
 #include "film/statistics.h"
@@ -20,20 +19,7 @@ using testing::small_room;
 
 constexpr int window_width = 1312, window_height = 828;
 
-/// A folder of its own, which is the current one.
-class ChartPanel : public ::testing::Test {
- protected:
-  void SetUp() override {
-    fs::create_directories(folder);
-    fs::current_path(folder);
-  }
-  void TearDown() override {
-    fs::current_path(came_from);
-    fs::remove_all(folder);
-  }
-  const fs::path came_from = fs::current_path();
-  const fs::path folder = fs::path(::testing::TempDir()) / ("glimt_chart_" + std::to_string(getpid()));
-};
+using ChartPanel = testing::OwnFolder;
 
 const ChartState& chart(const Offscreen& window) { return window.state().chart; }
 

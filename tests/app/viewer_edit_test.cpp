@@ -1,11 +1,10 @@
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 
 #include "app/offscreen.h"
+#include "app/own_folder.h"
 #include "film/image_file.h"
 #include "pictures.h"
 #include "scene/camera_view.h"
@@ -22,20 +21,7 @@ using testing::small_room;
 
 constexpr int window_width = 1280, window_height = 800;
 
-/// A folder of its own, which is the current one.
-class ViewerEdit : public ::testing::Test {
- protected:
-  void SetUp() override {
-    fs::create_directories(folder);
-    fs::current_path(folder);
-  }
-  void TearDown() override {
-    fs::current_path(came_from);
-    fs::remove_all(folder);
-  }
-  const fs::path came_from = fs::current_path();
-  const fs::path folder = fs::path(::testing::TempDir()) / ("glimt_edit_" + std::to_string(getpid()));
-};
+using ViewerEdit = testing::OwnFolder;
 
 ObjectId object_called(const Scene& scene, const std::string& name) {
   for (const ObjectId& object : objects_of(scene))

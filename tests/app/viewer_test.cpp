@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/offscreen.h"
+#include "app/own_folder.h"
 #include "film/display.h"
 #include "film/image_file.h"
 #include "scene/fields.h"
@@ -384,11 +385,9 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Fit,
                          ::testing::Values(Size{1280, 800, 1, 1}, Size{1920, 1080, 1, 1}, Size{2560, 1600, 2, 1},
                                            Size{3840, 2160, 2, 1}, Size{1280, 800, 1, 2}));
 
-TEST(Snapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / ("glimt_snapshot_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  const auto old_folder = std::filesystem::current_path();
-  std::filesystem::current_path(folder);
+using Snapshot = testing::OwnFolder;
+
+TEST_F(Snapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
   std::ofstream("picture-001.png") << "precious";
   {
     Offscreen window(small_room(), window_width, window_height);
@@ -410,8 +409,6 @@ TEST(Snapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
   std::string kept;
   std::ifstream("picture-001.png") >> kept;
   EXPECT_EQ(kept, "precious");
-  std::filesystem::current_path(old_folder);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
