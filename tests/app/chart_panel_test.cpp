@@ -2,7 +2,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/offscreen.h"
+#include "app/chart_window.h"
 #include "app/own_folder.h"
 #include "film/image_file.h"
 #include "film/metadata.h"
@@ -13,52 +13,17 @@ namespace glimt {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::chart;
+using testing::finish;
 using testing::Offscreen;
 using testing::save_screenshot;
+using testing::show_chart;
 using testing::small_room;
+using testing::visit;
 
 constexpr int window_width = 1312, window_height = 828;
 
 using ChartPanel = testing::OwnFolder;
-
-const ChartState& chart(const Offscreen& window) { return window.state().chart; }
-
-void show_chart(Offscreen& window) {
-  Edits edits;
-  edits.chart.view = ChartView{true, Across::seconds};
-  window.apply(edits);
-}
-
-template <class Change>
-void edit(Offscreen& window, Change change) {
-  Edits edits;
-  change(edits.edit(window.state()));
-  window.apply(edits);
-}
-
-/// Renders to the target; the last frame is then in its curve, measured.
-void finish(Offscreen& window) {
-  ASSERT_TRUE(window.draw_until_finished());
-  ASSERT_TRUE(window.draw_until([&] {
-    const Curve* curve = chart(window).curves.current();
-    return curve && curve->points.back().samples == window.state().frame->samples &&
-           curve->points.back().error.has_value() == chart(window).reference_fits;
-  }));
-}
-
-/// The report's visit: 1, 4 and 30 shadow rays, and another sampler.
-void visit(Offscreen& window) {
-  finish(window);
-  for (const int rays : {4, 30}) {
-    edit(window, [&](Scene& scene) { scene.render.shadow_rays = rays; });
-    finish(window);
-  }
-  edit(window, [](Scene& scene) {
-    scene.render.shadow_rays = 1;
-    scene.render.sampler = Sampler::sobol;
-  });
-  finish(window);
-}
 
 Frame rendered(const Scene& scene) {
   Frame frame;
@@ -162,11 +127,11 @@ TEST_F(ChartPanel, MeasuresAgainstAReferenceFromAFile) {
   const Image reference = read_image("reference.exr");
   const auto measured = [&] { return chart(window).curves.current()->points.back().error.value().relmse; };
   EXPECT_EQ(measured(), compare(window.state().frame->mean, reference).relmse) << "what is there is measured at once";
-  edit(window, [](Scene& scene) { scene.render.shadow_rays = 4; });
+  window.edit([](Scene& scene) { scene.render.shadow_rays = 4; });
   finish(window);
   EXPECT_EQ(measured(), compare(window.state().frame->mean, reference).relmse);
 
-  edit(window, [](Scene& scene) { scene.camera.fov_y += 5; });
+  window.edit([](Scene& scene) { scene.camera.fov_y += 5; });
   EXPECT_FALSE(chart(window).reference_fits);
   finish(window);
   EXPECT_FALSE(chart(window).curves.current()->points.back().error) << "another picture";
@@ -195,7 +160,7 @@ TEST_F(ChartPanel, ReferenceOfAnotherSceneOrSizeIsRefusedWithAReason) {
     ASSERT_TRUE(window.draw_until([&] { return window.state().message.error; })) << file;
     EXPECT_NE(window.state().message.text.find(reason), std::string::npos) << window.state().message.text;
     EXPECT_EQ(chart(window).reference, nullptr);
-    edit(window, [](Scene& scene) { ++scene.render.seed; });  // which clears the message
+    window.edit([](Scene& scene) { ++scene.render.seed; });  // which clears the message
   }
 }
 
@@ -262,93 +227,16 @@ TEST_F(ChartPanel, AdvisesOnShadowRays) {
   const int best = chart(window).advice->best;
   EXPECT_TRUE(window.widgets().contains("advice.best." + std::to_string(best)));
   save_screenshot(window, "advice");
-  edit(window, [&](Scene& scene) { scene.render.shadow_rays = best + 1; });
+  window.edit([&](Scene& scene) { scene.render.shadow_rays = best + 1; });
   window.press("advice.use");
   EXPECT_EQ(window.state().scene.render.shadow_rays, best);
   EXPECT_TRUE(window.state().can_undo);
 
-  edit(window, [](Scene& scene) { scene.render.light_sampling = LightSampling::none; });
+  window.edit([](Scene& scene) { scene.render.light_sampling = LightSampling::none; });
   window.press("advice.measure");
   ASSERT_TRUE(window.draw_until([&] { return window.state().message.error; }));
   EXPECT_NE(window.state().message.text.find("shadow rays play no part"), std::string::npos);
 }
-
-// ImGui's lists hold 2^16 vertices, and more would be drawn as garbage.
-TEST_F(ChartPanel, MostCurvesThereCanBeFitIntoALargeWindow) {
-  Scene room = small_room(4);
-  room.image = {200, 50};  // so that the chart is as wide as the window
-  Offscreen window(room, 3840, 2160);
-  ASSERT_TRUE(window.draw_until_finished());
-  ViewerState state = window.state();
-  state.chart.view.shown = true;
-  Scene scene = state.scene;
-  for (std::size_t i = 0; i < Curves::most; ++i) {
-    scene.render.seed = static_cast<int>(i) + 2;
-    const auto shared = std::make_shared<const Scene>(scene);
-    for (int samples = 2; samples < 1 << 20; samples += samples / 4 + 1) {
-      const double error = (1 + 0.02 * static_cast<double>(i)) / samples;
-      state.chart.curves.add(shared, {samples, samples * 1e-3, error, Comparison{.relmse = 1.1 * error}});
-    }
-  }
-  Edits edits;
-  for (int i = 0; i < 3; ++i) window.screen().lay_out(state, 1, edits);
-  window.screen().paint();
-  glFinish();
-  save_screenshot(window, "chart-most");
-  const ImDrawData& data = *ImGui::GetDrawData();
-  for (int i = 0; i < data.CmdListsCount; ++i) EXPECT_LT(data.CmdLists[i]->VtxBuffer.Size, 1 << 16);
-  EXPECT_GT(data.TotalVtxCount, 100'000) << "the curves are there";
-}
-
-/// Window sizes and scales.
-struct Size {
-  int width, height;
-  float scale;
-};
-
-class ChartFit : public ::testing::TestWithParam<Size> {};
-
-bool apart(const Rect& r, const Rect& s) {
-  return r.x + r.width <= s.x || s.x + s.width <= r.x || r.y + r.height <= s.y || s.y + s.height <= r.y;
-}
-
-TEST_P(ChartFit, NothingOverlapsOrSticksOut) {
-  const auto [width, height, scale] = GetParam();
-  for (const char* shape : {"square", "wide"}) {
-    const bool wide = shape == std::string("wide");
-    const std::vector<std::string> size{"image.width=" + std::to_string(wide ? 192 : 96), "image.height=96",
-                                        "render.spp=32"};
-    Offscreen window(read_scene(GLIMT_SCENES "/report.toml", size), width, height, scale);
-    show_chart(window);
-    visit(window);
-    ASSERT_TRUE(window.draw_until([&] { return window.widgets().contains("curve.3.base"); }));
-    const Layout layout = with_chart(make_layout(static_cast<float>(width), static_cast<float>(height), scale),
-                                     wide ? 192 : 96, 96, scale);
-    const Rect& r = layout.chart;
-    EXPECT_TRUE(apart(r, layout.image) && apart(r, layout.column) && apart(r, layout.status));
-    const auto& widgets = window.widgets();
-    const auto is_of_chart = [](const std::string& name) {
-      return name.starts_with("chart.") || name.starts_with("curve.") || name.starts_with("reference.");
-    };
-    for (const auto& [name, w] : widgets) {
-      if (!is_of_chart(name)) continue;
-      EXPECT_TRUE(w.x >= r.x && w.y >= r.y && w.x + w.width <= r.x + r.width && w.y + w.height <= r.y + r.height)
-          << name << " sticks out";
-      for (const auto& [other, s] : widgets)
-        EXPECT_TRUE(other <= name || !is_of_chart(other) || apart(w, s)) << name << " and " << other;
-    }
-    window.screen().toggle_help();
-    window.draw();
-    save_screenshot(window, std::string("chart-help-") + shape + std::to_string(width));
-    window.screen().toggle_help();
-    window.draw();
-    save_screenshot(window, std::string("chart-") + shape + "-" + std::to_string(width) + "-" +
-                                std::to_string(static_cast<int>(scale)));
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Sizes, ChartFit,
-                         ::testing::Values(Size{1312, 828, 1}, Size{1920, 1080, 1}, Size{2560, 1600, 2}));
 
 }  // namespace
 }  // namespace glimt

@@ -35,9 +35,7 @@ void hold_and_change(Offscreen& window) {
   ASSERT_TRUE(window.draw_until_finished());
   press(window, 'h');
   ASSERT_TRUE(window.state().compare.held.frame);
-  Edits edits;
-  edits.edit(window.state()).render.shadow_rays = 30;
-  window.apply(edits);
+  window.edit([](Scene& scene) { scene.render.shadow_rays = 30; });
   ASSERT_TRUE(window.draw_until_finished());
   ASSERT_NE(window.state().frame->mean.rgb, window.state().compare.held.frame->mean.rgb);
 }
@@ -83,19 +81,9 @@ TEST(Compare, SplitShowsAAtTheLeftAndBAtTheRight) {
 
   // The line is dragged to a quarter of the picture.
   const Rect line = window.widget("split"), r = window.widget("image");
-  ImGuiIO& io = ImGui::GetIO();
-  io.MousePos = {line.x + line.width / 2, line.y + line.height / 2};
-  window.draw(2);
-  io.MouseDown[0] = true;
-  window.draw(2);
-  io.MousePos.x = r.x + r.width / 4;
-  window.draw(2);
-  io.MouseDown[0] = false;
-  window.draw(2);
+  window.drag("split", (r.x + r.width / 4 - line.x) / line.width);
   EXPECT_NEAR(window.state().compare.line, 0.25, 0.01);
   EXPECT_FALSE(window.state().can_undo && window.state().scene.render.shadow_rays == 1) << "the camera stays";
-  io.MousePos = {-FLT_MAX, -FLT_MAX};
-  window.draw();
   expect_shown(window, b, window.state().display, image_width / 4 + 1, image_width);
 }
 
@@ -132,9 +120,7 @@ TEST(Compare, OtherSizeIsRefusedWithAReason) {
   press(window, 'h');
   EXPECT_EQ(obstacle_to_compare(window.state()), "");
   compare_by(window, CompareView::difference);
-  Edits edits;
-  edits.edit(window.state()).image = {64, 48};
-  window.apply(edits);
+  window.edit([](Scene& scene) { scene.image = {64, 48}; });
   ASSERT_TRUE(window.draw_until_finished());
   EXPECT_EQ(obstacle_to_compare(window.state()), "What is held is 96 \u00D7 72 pixels, the picture 64 \u00D7 48");
 }
@@ -182,9 +168,7 @@ TEST(Compare, LooksRight) {
                      static_cast<int>(828 * scale), scale);
     ASSERT_TRUE(window.draw_until_finished());
     press(window, 'h');
-    Edits edits;
-    edits.edit(window.state()).render.sampler = Sampler::sobol;
-    window.apply(edits);
+    window.edit([](Scene& scene) { scene.render.sampler = Sampler::sobol; });
     ASSERT_TRUE(window.draw_until_finished());
     press(window, 'i');
     for (const auto& [view, name] : {std::pair{CompareView::split, "split"},

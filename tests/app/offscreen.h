@@ -65,6 +65,12 @@ class Offscreen {
     controller_->apply(edits);
     draw();
   }
+  /// Edits the scene as `change` does.
+  void edit(const std::function<void(Scene&)>& change) {
+    Edits edits;
+    change(edits.edit(state()));
+    apply(edits);
+  }
   const ViewerState& state() const { return controller_->state(); }
   const WidgetRects& widgets() const { return screen_->widgets(); }
   Rect widget(const std::string& name) const {
@@ -196,6 +202,10 @@ class Offscreen {
   std::unique_ptr<Controller> controller_;
   std::unique_ptr<Screen> screen_;
 };
+
+inline bool apart(const Rect& r, const Rect& s) {
+  return r.x + r.width <= s.x || s.x + s.width <= r.x || r.y + r.height <= s.y || s.y + s.height <= r.y;
+}
 
 /// With GLIMT_SCREENSHOTS=FOLDER what is drawn is saved there, to be looked at.
 inline void save_screenshot(const Offscreen& window, const std::string& name) {

@@ -19,6 +19,7 @@
 namespace glimt {
 namespace {
 
+using testing::apart;
 using testing::Offscreen;
 using testing::small_room;
 
@@ -291,10 +292,6 @@ void PrintTo(const Size& size, std::ostream* out) {
 }
 
 class Fit : public ::testing::TestWithParam<Size> {};
-
-bool apart(const Rect& r, const Rect& s) {
-  return r.x + r.width <= s.x || s.x + s.width <= r.x || r.y + r.height <= s.y || s.y + s.height <= r.y;
-}
 
 /// Not in the column of controls.
 bool is_elsewhere(const std::string& name) { return name == "image" || name == "message" || name.starts_with("says."); }
