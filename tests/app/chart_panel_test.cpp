@@ -7,6 +7,7 @@
 #include "film/image_file.h"
 #include "film/metadata.h"
 #include "film/statistics.h"
+#include "pictures.h"
 
 /// The chart in the window, drawn into memory.
 namespace glimt {
@@ -25,20 +26,11 @@ constexpr int window_width = 1312, window_height = 828;
 
 using ChartPanel = testing::OwnFolder;
 
-Frame rendered(const Scene& scene) {
-  Frame frame;
-  Session session({.threads = 2});
-  session.post(scene);
-  while (!session.frame() || !session.frame()->finished) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  return *session.frame();
-}
-
 void write_reference(const fs::path& file, Scene scene, int spp = 64) {
   scene.render.spp = spp;
   scene.render.seed = 99;
-  const Frame frame = rendered(scene);
-  Image none = frame.mean;
-  write_exr(file, frame.mean, none, render_metadata(scene, frame.samples, frame.seconds));
+  const Film film = render(compile(scene), spp);
+  write_exr(file, film.mean(), film.standard_error(), render_metadata(scene, spp, 0));
 }
 
 void load_reference(Offscreen& window, const fs::path& file) {
