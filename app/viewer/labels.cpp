@@ -27,7 +27,6 @@ constexpr std::array wordings{
     Wording{"image", "Image", ""},
     Wording{"error", "Standard error", ""},
     Wording{"samples", "Samples per pixel", ""},
-    Wording{"ggx", "GGX", ""},
     Wording{"eon", "EON", ""},
     Wording{"mis", "MIS", ""},
     Wording{"radiance", "Radiance", "W/(m\u00B2 sr)"},
