@@ -382,9 +382,9 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Fit,
                          ::testing::Values(Size{1280, 800, 1, 1}, Size{1920, 1080, 1, 1}, Size{2560, 1600, 2, 1},
                                            Size{3840, 2160, 2, 1}, Size{1280, 800, 1, 2}));
 
-using Snapshot = testing::OwnFolder;
+using WindowSnapshot = testing::OwnFolder;
 
-TEST_F(Snapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
+TEST_F(WindowSnapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
   std::ofstream("picture-001.png") << "precious";
   {
     Offscreen window(small_room(), window_width, window_height);
