@@ -20,14 +20,13 @@ struct Part {
   Caustics light;
   CompiledScene scene;
   Film film;
-  double seconds = 0;  ///< all seeds
 };
 
-/// Without caustics, caustics alone, and the whole; one of them where the scene is set to it.
+/// Without caustics and caustics alone; one of them where the scene is set to it.
 std::vector<Part> parts_of(Scene scene) {
   const Caustics shown = scene.render.caustics;
   std::vector<Part> parts;
-  for (const Caustics light : {Caustics::off, Caustics::only, Caustics::on}) {
+  for (const Caustics light : {Caustics::off, Caustics::only}) {
     if (shown != Caustics::on && shown != light) continue;
     scene.render.caustics = light;
     parts.push_back({light, compile(scene), {}});
@@ -42,7 +41,6 @@ Errors errors_of(const std::vector<Part>& parts, const std::vector<bool>& specul
   const Image weights = relative_weights(picture);
   Errors errors{};
   for (const Part& part : parts) {
-    if (part.light == Caustics::on) continue;
     const Image deviation = part.film.standard_error();
     const std::size_t family = part.light == Caustics::only ? 0 : 2;
     for (std::size_t i = 0; i < weights.rgb.size(); ++i)
@@ -55,7 +53,6 @@ Errors errors_of(const std::vector<Part>& parts, const std::vector<bool>& specul
 Families summary(const std::vector<Errors>& runs, const std::vector<bool>& specular) {
   Families result;
   const auto seen = static_cast<double>(std::ranges::count(specular, true)) / static_cast<double>(specular.size());
-  Family sum;
   for (std::size_t i = 0; i < result.all.size(); ++i) {
     Family& family = result.all.at(i);
     std::vector<double> shares;
@@ -63,13 +60,12 @@ Families summary(const std::vector<Errors>& runs, const std::vector<bool>& specu
       const double total = std::accumulate(errors.begin(), errors.end(), 0.0);
       shares.push_back(total > 0 ? errors.at(i) / total : 0);
       family.error += errors.at(i) / static_cast<double>(runs.size());
+      family.share += shares.back() / static_cast<double>(runs.size());
     }
     family.low = quantile(shares, 0.25);
     family.high = quantile(shares, 0.75);
     family.pixels = i % 2 == 1 ? seen : 1 - seen;
-    sum.error += family.error;
   }
-  for (Family& family : result.all) family.share = sum.error > 0 ? family.error / sum.error : 0;
   return result;
 }
 
@@ -107,7 +103,6 @@ Families measure_families(const Scene& scene, const Plan& plan, const std::funct
       for (Part& part : parts) {
         const double time =
             seconds_of_pass(part.scene, part.film, std::min(std::max(1, samples), end - samples), plan.execution);
-        part.seconds += time;
         pass = std::max(pass, time);
       }
       seconds += pass;
@@ -119,8 +114,6 @@ Families measure_families(const Scene& scene, const Plan& plan, const std::funct
   }
   Families result = summary(runs, specular);
   result.samples = last;
-  result.seconds = parts.back().seconds;
-  result.other_seconds = parts.front().light == Caustics::off ? parts.front().seconds : 0;
   if (report) report(1);
   return result;
 }

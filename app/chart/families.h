@@ -12,18 +12,17 @@
 /// or anything else.
 namespace glimt {
 
+/// Over seeds.
 struct Family {
-  double error = 0;          ///< its part of relmse, mean over seeds
-  double share = 0;          ///< of the error of all families; 0 where there is none
-  double low = 0, high = 0;  ///< quartiles of the share over seeds
+  double error = 0;          ///< its part of relmse, mean
+  double share = 0;          ///< of the error of all families, mean; 0 where there is no error
+  double low = 0, high = 0;  ///< quartiles of the share
   double pixels = 0;         ///< share of the pixels it is seen in
 };
 
 struct Families {
   std::array<Family, 4> all;
-  int samples = 0;           ///< per pixel
-  double seconds = 0;        ///< of the whole picture, all seeds
-  double other_seconds = 0;  ///< of the picture without caustics
+  int samples = 0;  ///< per pixel
 };
 
 struct FamilyText {
@@ -45,10 +44,10 @@ inline constexpr std::array<FamilyText, 4> family_texts{{
 /// Whether the centre of each pixel sees a mirror or glass first, row by row from the top.
 std::vector<bool> sees_specular(const Scene& scene);
 
-/// Renders the light that is no caustic, the caustics, and for its time the whole, in turn: each with plan.seeds seeds
-/// to equal sample counts, plan.seconds or plan.spp at most. Errors are as in relmse_estimate, from each one's halves,
-/// relative to the sum of both. What the scene's own setting of caustics leaves out is left out. `report` is called
-/// with the share done, and may throw to end it. Throws std::runtime_error where the scene has no mirrors and no glass.
+/// Renders the scene without caustics and with nothing else in turn, each with plan.seeds seeds to equal sample counts,
+/// plan.seconds or plan.spp at most. Errors are as in relmse_estimate, from each one's halves, relative to the sum of
+/// both. What the scene's own setting of caustics leaves out is left out. `report` is called with the share done, and
+/// may throw to end it. Throws std::runtime_error where the scene has no mirrors and no glass.
 Families measure_families(const Scene& scene, const Plan& plan, const std::function<void(double)>& report);
 
 }  // namespace glimt

@@ -46,8 +46,8 @@ void draw_answer(const Families& families) {
   ImGui::PopTextWrapPos();
   note_widget("families.answer");
   for (std::size_t i = 0; i < families.all.size(); ++i) family_row(families.all.at(i), i);
-  muted_text("Caustics take " + percent(std::max(0.0, 1 - families.other_seconds / families.seconds)) +
-             " of the time, measured to " + std::to_string(families.samples) + " samples per pixel.");
+  muted_text("Of this view at " + std::to_string(families.samples) + " samples per pixel.");
+  note_widget("families.samples");
 }
 
 /// From `left` on, as long as the share of `width`, and its value behind the longest that could be.
@@ -67,11 +67,11 @@ void draw_families(const ViewerState& state, Edits& edits) {
   if (draw_measuring(chart, edits.chart)) return;
   const bool several = has_specular(state.scene);
   ButtonRow row(2);
-  edits.chart.measure_families =
-      row.button("Measure", "families.measure",
-                 "Render this view without caustics, its caustics alone, and the whole in turn, five seeds each, some "
-                 "eight seconds in all. The picture pauses meanwhile.",
-                 several && !chart.making);
+  edits.chart.measure_families = row.button(
+      "Measure", "families.measure",
+      "Render this view without caustics and its caustics alone in turn, five seeds each, some five seconds in "
+      "all. The picture pauses meanwhile.",
+      several && !chart.making);
   if (!several || !chart.families) {
     muted_text(
         "Noise is left by caustics and by other light, on matt surfaces and where a mirror or glass is seen. This "
@@ -98,6 +98,10 @@ void draw_families_plot(const ViewerState& state, const Rect& place) {
   const float step = std::min(place.height / 4, 5 * line);
   for (std::size_t i = 0; i < family_texts.size(); ++i) {
     const ImVec2 at{place.x, place.y + static_cast<float>(i) * step};
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({place.width, 3.2F * line});
+    note_widget("families.bar." + std::to_string(i));
+    tooltip(family_texts.at(i).tip);
     ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text),
                                         fit_text(std::string(family_texts.at(i).name), place.width).c_str());
     const Family family = found ? found->what.all.at(i) : Family{};

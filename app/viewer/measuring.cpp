@@ -17,7 +17,9 @@ bool draw_measuring(const ChartState& chart, ChartEdits& edits) {
 void draw_age(Scene measured, const Scene& shown) {
   measured.render.spp = shown.render.spp;
   measured.render.target_error = shown.render.target_error;
-  if (!(measured == shown)) muted_text("Measured before the last edit:");
+  if (measured == shown) return;
+  muted_text("Measured before the last edit:");
+  note_widget("measured.before");
 }
 
 std::string percent(double share) { return short_number(std::round(100 * share)) + " %"; }
