@@ -46,8 +46,9 @@ std::vector<bool> sees_specular(const Scene& scene);
 
 /// Renders the scene without caustics and with nothing else in turn, each with plan.seeds seeds to equal sample counts,
 /// plan.seconds or plan.spp at most. Errors are as in relmse_estimate, from each one's halves, relative to the sum of
-/// both. What the scene's own setting of caustics leaves out is left out. `report` is called with the share done, and
-/// may throw to end it. Throws std::runtime_error where the scene has no mirrors and no glass.
+/// both. Seeds are the scene's own and those that follow. What the scene's own setting of caustics leaves out is left
+/// out. `report` is called with the share done, and may throw to end it. Throws std::runtime_error where the scene has
+/// no mirrors and no glass.
 Families measure_families(const Scene& scene, const Plan& plan, const std::function<void(double)>& report);
 
 }  // namespace glimt

@@ -44,13 +44,13 @@ void draw_answer(const Families& families) {
   ImGui::PushTextWrapPos(0);
   heading((percent(families.all.at(static_cast<std::size_t>(worst)).share) + " of the error is " + name).c_str());
   ImGui::PopTextWrapPos();
-  note_widget("families.answer");
+  note_widget("families.answer." + std::to_string(worst));
   for (std::size_t i = 0; i < families.all.size(); ++i) family_row(families.all.at(i), i);
-  muted_text("Of this view at " + std::to_string(families.samples) + " samples per pixel.");
+  muted_text("Measured to " + std::to_string(families.samples) + " samples per pixel.");
   note_widget("families.samples");
 }
 
-/// From `left` on, as long as the share of `width`, and its value behind the longest that could be.
+/// A bar as long as the share of `width`, in the middle of a line of text, and behind its track the value.
 void draw_bar(const ImVec2& at, float width, float height, double share, ImU32 colour, const std::string& value,
               ImU32 text) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -94,7 +94,7 @@ void draw_families_plot(const ViewerState& state, const Rect& place) {
   }
   const auto& found = state.chart.families;
   const std::string widest = "100 % of the error";
-  const float width = place.width - ImGui::CalcTextSize(widest.c_str()).x - style::scaled(8);
+  const float width = std::max(0.0F, place.width - ImGui::CalcTextSize(widest.c_str()).x - style::scaled(8));
   const float step = std::min(place.height / 4, 5 * line);
   for (std::size_t i = 0; i < family_texts.size(); ++i) {
     const ImVec2 at{place.x, place.y + static_cast<float>(i) * step};
