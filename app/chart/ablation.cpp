@@ -2,26 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "chart/materials.h"
+#include "chart/relative_weights.h"
 #include "chart/words.h"
 #include "scene/fields.h"
 
 namespace glimt {
 namespace {
 
-bool has_material(const Scene& scene, bool (*is)(const Material&)) {
-  const auto used = [&](const auto& objects) {
-    return std::ranges::any_of(objects, [&](const auto& object) {
-      const Material* material = find_material(scene, object.material);
-      return material && is(*material);
-    });
-  };
-  return used(scene.spheres) || used(scene.polygons) || used(scene.meshes);
-}
-
 bool is_rough(const Material& m) { return m.type == MaterialType::oren_nayar || m.type == MaterialType::eon; }
 bool is_exact_glass(const Material& m) { return m.type == MaterialType::glass && m.fresnel == Fresnel::exact; }
-bool is_specular(const Material& m) { return m.type == MaterialType::mirror || m.type == MaterialType::glass; }
 
 /// The same scene with every material of a kind changed.
 Scene with_materials(Scene scene, bool (*is)(const Material&), void (*change)(Material&)) {
@@ -31,10 +23,21 @@ Scene with_materials(Scene scene, bool (*is)(const Material&), void (*change)(Ma
 }
 
 /// Values of a numeric setting worth trying.
-std::vector<int> values_to_try(std::string_view key) {
+std::vector<double> values_to_try(std::string_view key) {
   if (key == "shadow_rays") return {1, 2, 4, 8, 30};
   if (key == "max_depth") return {1, 2, 4, 8};
+  if (key == "light_paths") return {0, 0.0125, 0.05, 0.2};
   return {};
+}
+
+bool is_of_caustics(std::string_view key) {
+  return key == "caustics" || key == "light_paths" || key == "sphere_connections";
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 struct AddPieces {
@@ -43,7 +46,7 @@ struct AddPieces {
   std::string_view key;
 
   void operator()(const Choice<Settings>& choice) const {
-    if (key == "method" || (key == "caustics" && !has_material(scene, is_specular))) return;
+    if (key == "method") return;
     for (std::size_t value = 0; value < choice.names.size(); ++value) {
       if (choice.get(scene.render) == static_cast<int>(value)) continue;
       Piece piece{words(key) + " " + std::string(choice.names[value]), key == "caustics", scene};
@@ -51,16 +54,15 @@ struct AddPieces {
       pieces.push_back(std::move(piece));
     }
   }
-  void operator()(int Settings::*member) const {
-    for (const int value : values_to_try(key)) {
-      if (scene.render.*member == value) continue;
-      Piece piece{words(key) + " " + std::to_string(value), key == "max_depth", scene};
-      piece.scene.render.*member = value;
+  template <class T>
+  void operator()(T Settings::*member) const {
+    for (const double value : values_to_try(key)) {
+      if (scene.render.*member == static_cast<T>(value)) continue;
+      Piece piece{words(key) + " " + number(value), key == "max_depth", scene};
+      piece.scene.render.*member = static_cast<T>(value);
       pieces.push_back(std::move(piece));
     }
   }
-  template <class T>
-  void operator()(T Settings::*) const {}
 };
 
 /// Renders both in turn, a part at a time, so that what else the machine does hits both alike. Returns the time of the
@@ -107,32 +109,20 @@ std::vector<Piece> pieces_of(const Scene& scene) {
   if (has_material(scene, is_exact_glass))
     pieces.push_back({"Schlick's Fresnel", true,
                       with_materials(scene, is_exact_glass, [](Material& m) { m.fresnel = Fresnel::schlick; })});
-  for (const auto& field : settings_fields()) std::visit(AddPieces{scene, pieces, field.key}, field.member);
+  const bool caustics = has_specular(scene);
+  for (const auto& field : settings_fields())
+    if (caustics || !is_of_caustics(field.key)) std::visit(AddPieces{scene, pieces, field.key}, field.member);
   return pieces;
 }
 
 double relmse_of_difference(const Film& a, const Film& b) {
-  constexpr int block = 8;
-  constexpr double dark = 0.01;
-  const Image a0 = a.half_mean(0), a1 = a.half_mean(1), b0 = b.half_mean(0), b1 = b.half_mean(1), mean = b.mean();
-  const int width = mean.width, height = mean.height;
+  const Image a0 = a.half_mean(0), a1 = a.half_mean(1), b0 = b.half_mean(0), b1 = b.half_mean(1);
+  const Image weights = relative_weights(b.mean());
   double total = 0;
-  for (int y0 = 0; y0 < height; y0 += block)
-    for (int x0 = 0; x0 < width; x0 += block) {
-      const int y1 = std::min(y0 + block, height), x1 = std::min(x0 + block, width);
-      for (std::size_t c = 0; c < 3; ++c) {
-        double sum = 0, products = 0;
-        for (int y = y0; y < y1; ++y)
-          for (int x = x0; x < x1; ++x) {
-            sum += static_cast<double>(mean.pixel(x, y)[c]);
-            products += (static_cast<double>(a0.pixel(x, y)[c]) - static_cast<double>(b0.pixel(x, y)[c])) *
-                        (static_cast<double>(a1.pixel(x, y)[c]) - static_cast<double>(b1.pixel(x, y)[c]));
-          }
-        const double m = sum / ((y1 - y0) * (x1 - x0));
-        total += products / (m * m + dark);
-      }
-    }
-  return total / (3.0 * width * height);
+  for (std::size_t i = 0; i < weights.rgb.size(); ++i)
+    total +=
+        (static_cast<double>(a0.rgb[i]) - b0.rgb[i]) * (static_cast<double>(a1.rgb[i]) - b1.rgb[i]) * weights.rgb[i];
+  return total / static_cast<double>(weights.rgb.size());
 }
 
 std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& pieces, const Plan& plan,

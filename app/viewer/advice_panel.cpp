@@ -1,5 +1,6 @@
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "viewer/chart_panel.h"
 #include "viewer/widgets.h"
@@ -7,12 +8,10 @@
 namespace glimt {
 namespace {
 
-std::string percent(double share) { return short_number(std::round(100 * share)) + " %"; }
-
 std::string rays_text(int count) { return std::to_string(count) + (count == 1 ? " shadow ray" : " shadow rays"); }
 
 void draw_answer(const ViewerState& state, Edits& edits) {
-  const ShadowRayAdvice& advice = *state.chart.advice;
+  const ShadowRayAdvice& advice = state.chart.advice->what;
   const ShadowRayModel& model = advice.model;
   const std::string spread = advice.low == advice.high ? ""
                                                        : " (quartiles " + std::to_string(advice.low) + " to " +
@@ -45,13 +44,7 @@ void draw_answer(const ViewerState& state, Edits& edits) {
 
 void draw_advice(const ViewerState& state, Edits& edits) {
   const ChartState& chart = state.chart;
-  if (chart.advising) {
-    muted_text("Measuring this view with 1 and 4 shadow rays in turn.");
-    ImGui::ProgressBar(static_cast<float>(*chart.advising), {-FLT_MIN, ImGui::GetFontSize() / 2}, "");
-    ButtonRow row(2);
-    edits.chart.stop_advising = row.button("Stop", "advice.stop", "Stop measuring");
-    return;
-  }
+  if (draw_measuring(chart, edits.chart)) return;
   ButtonRow row(2);
   edits.chart.advise = row.button("Measure", "advice.measure",
                                   "Render this view with 1 and with 4 shadow rays in turn, five seeds each, some five "
@@ -63,25 +56,23 @@ void draw_advice(const ViewerState& state, Edits& edits) {
         "they balance.");
     return;
   }
-  Scene same = *chart.advised;
-  same.render.shadow_rays = state.scene.render.shadow_rays;
-  same.render.spp = state.scene.render.spp;
-  same.render.target_error = state.scene.render.target_error;
-  if (!(same == state.scene)) muted_text("Measured before the last edit:");
+  Scene measured = chart.advice->scene;
+  measured.render.shadow_rays = state.scene.render.shadow_rays;
+  draw_age(std::move(measured), state.scene);
   draw_answer(state, edits);
 }
 
 void draw_advice_plot(const ChartState& chart, const Rect& place) {
   std::vector<PlotPoint> curve, measured;
   if (chart.advice) {
-    const ShadowRayModel& model = chart.advice->model;
-    const double best = model.efficiency(chart.advice->best);
+    const ShadowRayModel& model = chart.advice->what.model;
+    const double best = model.efficiency(chart.advice->what.best);
     constexpr int steps = 64;
     for (int i = 0; i <= steps; ++i) {
       const double rays = std::pow(most_shadow_rays, 1.0 * i / steps);
       curve.push_back({rays, model.efficiency(rays) / best});
     }
-    for (const ShadowRayRun& run : chart.advice->runs)
+    for (const ShadowRayRun& run : chart.advice->what.runs)
       measured.push_back({1.0 * run.shadow_rays, 1 / (run.error * run.seconds) / best});
   }
   const Plot plot(place, {curve, measured});
@@ -89,7 +80,7 @@ void draw_advice_plot(const ChartState& chart, const Rect& place) {
   const CurveStyle style = curve_style(0), other = curve_style(1);
   plot.draw_thin(curve, style.colour);
   for (const PlotPoint& point : measured) plot.draw_curve({point}, style);
-  if (chart.advice) plot.draw_curve({{1.0 * chart.advice->best, 1}}, {other.colour, {}, 3});
+  if (chart.advice) plot.draw_curve({{1.0 * chart.advice->what.best, 1}}, {other.colour, {}, 3});
 }
 
 }  // namespace glimt

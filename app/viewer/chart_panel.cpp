@@ -111,25 +111,37 @@ void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits,
   const ImVec2 list_at = wide ? ImVec2{at.x + free.x - list, at.y} : ImVec2{at.x, at.y + free.y - list};
 
   // Which page is open is known only once the tabs are drawn.
+  enum Page { error, advice, families };
   ImGuiStorage& memory = *ImGui::GetStateStorage();
-  const ImGuiID advisor = ImGui::GetID("advisor");
+  const ImGuiID page = ImGui::GetID("page");
   std::optional<PlotPoint> pointer;
-  if (memory.GetBool(advisor))
-    draw_advice_plot(state.chart, plot);
-  else
-    pointer = draw_error_plot(state.chart, plot);
+  switch (memory.GetInt(page)) {
+    case advice:
+      draw_advice_plot(state.chart, plot);
+      break;
+    case families:
+      draw_families_plot(state, plot);
+      break;
+    default:
+      pointer = draw_error_plot(state.chart, plot);
+  }
 
   ImGui::SetCursorScreenPos(list_at);
   ImGui::BeginChild("pages", wide ? ImVec2{list, free.y} : ImVec2{free.x, list});
   if (ImGui::BeginTabBar("tabs")) {
     if (tab("Error", "chart.tab.error", "Error of every setting tried, against the time it took")) {
       draw_error_page(state, pointer, edits, requests);
-      memory.SetBool(advisor, false);
+      memory.SetInt(page, error);
       ImGui::EndTabItem();
     }
     if (tab("Shadow rays", "chart.tab.advisor", "How many shadow rays pay in this scene")) {
       draw_advice(state, edits);
-      memory.SetBool(advisor, true);
+      memory.SetInt(page, advice);
+      ImGui::EndTabItem();
+    }
+    if (tab("Families", "chart.tab.families", "Which light the remaining error is of: caustics or other")) {
+      draw_families(state, edits);
+      memory.SetInt(page, families);
       ImGui::EndTabItem();
     }
     ImGui::EndTabBar();

@@ -31,7 +31,7 @@ struct Stopped : std::runtime_error {
 }  // namespace
 
 Charting::Charting(ChartState& state, const std::function<void()>& wake, Execution execution)
-    : state_(state), wake_(wake), execution_(execution), meter_(wake), loader_(wake), advisor_(wake) {}
+    : state_(state), wake_(wake), execution_(execution), meter_(wake), loader_(wake), finder_(wake) {}
 
 Charting::~Charting() { stop_ = true; }
 
@@ -80,18 +80,14 @@ bool Charting::poll(std::string& error) {
     else
       error = loaded->error;
   }
-  if (auto advised = advisor_.take()) {
+  if (const auto found = finder_.take()) {
     news = true;
-    state_.advising.reset();
-    error = advised->error;
-    if (advised->advice) {
-      state_.advice = std::move(advised->advice);
-      state_.advised = advised->scene;
-    }
+    state_.measuring.reset();
+    (*found)(state_, error);
   }
-  if (advisor_.busy() && state_.advising != advised_share_) {
+  if (finder_.busy() && state_.measuring != found_share_) {
     news = true;
-    state_.advising = advised_share_.load();
+    state_.measuring = found_share_.load();
   }
   return poll_making() || news;
 }
@@ -110,8 +106,9 @@ void Charting::apply(const ChartEdits& edits) {
   if (edits.use_now && state_.making) use_made();
   if (edits.stop_making) end_making();
   if (edits.drop_reference) set_reference(nullptr);
-  if (edits.advise && !busy()) advise();
-  if (edits.stop_advising) stop_ = true;
+  if (edits.advise && !busy()) find(&ChartState::advice, advise_shadow_rays);
+  if (edits.measure_families && !busy()) find(&ChartState::families, measure_families);
+  if (edits.stop_measuring) stop_ = true;
 }
 
 void Charting::load(const std::filesystem::path& file) {
@@ -162,24 +159,25 @@ void Charting::set_reference(std::shared_ptr<const Reference> reference) {
   measure();
 }
 
-void Charting::advise() {
+template <class T, class How>
+void Charting::find(std::optional<Finding<T>> ChartState::*finding, How how) {
   stop_ = false;
-  advised_share_ = 0;
-  state_.advising = 0;
-  advisor_.start([this, scene = scene_, execution = execution_]() -> Advised {
+  found_share_ = 0;
+  state_.measuring = 0;
+  finder_.start([this, finding, how, scene = scene_, execution = execution_]() -> Found {
     setpriority(PRIO_PROCESS, 0, 10);  // the window's thread comes first
     try {
       const Plan plan{.seeds = 5, .seconds = 0.5, .execution = execution};
-      return {advise_shadow_rays(*scene, plan,
+      const Finding<T> found{how(*scene, plan,
                                  [this](double share) {
-                                   advised_share_ = share;
+                                   found_share_ = share;
                                    wake_();
                                    if (stop_) throw Stopped("");
                                  }),
-              scene,
-              {}};
+                             *scene};
+      return [finding, found](ChartState& state, std::string&) { state.*finding = found; };
     } catch (const std::exception& problem) {
-      return {{}, scene, problem.what()};
+      return [text = std::string(problem.what())](ChartState&, std::string& error) { error = text; };
     }
   });
 }

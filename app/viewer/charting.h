@@ -8,6 +8,7 @@
 #include <string>
 
 #include "chart/advisor.h"
+#include "chart/families.h"
 #include "render/session.h"
 #include "viewer/background.h"
 #include "viewer/curves.h"
@@ -29,6 +30,13 @@ struct Reference {
   std::shared_ptr<const Scene> scene;  ///< that it is of
 };
 
+/// What was measured of a scene.
+template <class T>
+struct Finding {
+  T what;
+  Scene scene;
+};
+
 /// All that the chart shows.
 struct ChartState {
   ChartView view;
@@ -37,9 +45,9 @@ struct ChartState {
   bool reference_fits = false;                 ///< it is of the scene that is shown
   std::shared_ptr<const Frame> making;         ///< how far the next reference has come; null where none is made
   double target = 1e-4;                        ///< relmse_estimate that it is made to
-  std::optional<double> advising;              ///< share done of the advisor's measurements
-  std::optional<ShadowRayAdvice> advice;
-  std::shared_ptr<const Scene> advised;  ///< the scene that the advice is for
+  std::optional<double> measuring;             ///< share done of the next finding
+  std::optional<Finding<ShadowRayAdvice>> advice;
+  std::optional<Finding<Families>> families;
 };
 
 /// What was asked of the chart while one picture of the window was drawn.
@@ -50,12 +58,12 @@ struct ChartEdits {
   std::optional<double> target;
   bool clear = false;
   bool make_reference = false, use_now = false, stop_making = false, drop_reference = false;
-  bool advise = false, stop_advising = false;
+  bool advise = false, measure_families = false, stop_measuring = false;
   bool export_csv = false, export_svg = false;
 };
 
-/// Keeps the chart: grows the curves, measures them against the reference, makes references and advice. Nothing waits
-/// for any of it.
+/// Keeps the chart: grows the curves, measures them against the reference, makes references and findings. Nothing
+/// waits for any of it.
 class Charting {
  public:
   Charting(ChartState& state, const std::function<void()>& wake, Execution execution);
@@ -72,7 +80,7 @@ class Charting {
   /// Carries out what needs no files written.
   void apply(const ChartEdits& edits);
   /// A measurement or a reference is being made, which wants the machine to itself.
-  bool busy() const { return making_ || advisor_.busy(); }
+  bool busy() const { return making_ || finder_.busy(); }
 
  private:
   struct Measured {
@@ -84,11 +92,8 @@ class Charting {
     std::shared_ptr<const Reference> reference;
     std::string error;
   };
-  struct Advised {
-    std::optional<ShadowRayAdvice> advice;
-    std::shared_ptr<const Scene> scene;
-    std::string error;
-  };
+  /// Puts a finding into the state, or says why there is none.
+  using Found = std::function<void(ChartState&, std::string& error)>;
 
   void measure();
   void load(const std::filesystem::path& file);
@@ -97,7 +102,8 @@ class Charting {
   void use_made();
   void end_making();
   void set_reference(std::shared_ptr<const Reference> reference);
-  void advise();
+  template <class T, class How>
+  void find(std::optional<Finding<T>> ChartState::*finding, How how);
 
   ChartState& state_;
   std::function<void()> wake_;
@@ -106,11 +112,11 @@ class Charting {
   std::shared_ptr<const Frame> newest_;   ///< of that scene
   std::shared_ptr<const Frame> waiting_;  ///< to be measured
   std::shared_ptr<const Scene> made_scene_;
-  std::atomic<bool> stop_{false};  ///< the advisor
-  std::atomic<double> advised_share_{0};
+  std::atomic<bool> stop_{false};  ///< the finder
+  std::atomic<double> found_share_{0};
   Background<Measured> meter_;
   Background<Loaded> loader_;
-  Background<Advised> advisor_;
+  Background<Found> finder_;
   std::unique_ptr<Session> making_;  ///< renders the next reference
 };
 

@@ -48,7 +48,7 @@ void draw_reference_controls(const ViewerState& state, Edits& edits, Requests& r
       row.button("Make", "reference.make",
                  "Render this scene on with the best method, all its light and a seed of its own, until its error is "
                  "small enough. The picture pauses meanwhile, so that times stay true; edit as you like.",
-                 !chart.advising);
+                 !chart.measuring);
   requests.reference = row.button("Open\u2026", "reference.open",
                                   "An EXR or PFM of this scene and size. It can also be dropped onto the chart");
   edits.chart.drop_reference =

@@ -209,14 +209,14 @@ TEST_F(ChartPanel, AdvisesOnShadowRays) {
   finish(window);
   window.press("chart.tab.advisor");
   window.press("advice.measure");
-  EXPECT_TRUE(chart(window).advising);
-  window.press("advice.stop");
-  ASSERT_TRUE(window.draw_until([&] { return !chart(window).advising; }));
+  EXPECT_TRUE(chart(window).measuring);
+  window.press("measuring.stop");
+  ASSERT_TRUE(window.draw_until([&] { return !chart(window).measuring; }));
   EXPECT_FALSE(chart(window).advice);
 
   window.press("advice.measure");
   ASSERT_TRUE(window.draw_until([&] { return chart(window).advice.has_value(); })) << window.state().message.text;
-  const int best = chart(window).advice->best;
+  const int best = chart(window).advice->what.best;
   EXPECT_TRUE(window.widgets().contains("advice.best." + std::to_string(best)));
   save_screenshot(window, "advice");
   window.edit([&](Scene& scene) { scene.render.shadow_rays = best + 1; });

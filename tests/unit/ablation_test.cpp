@@ -20,7 +20,8 @@ bool has(const std::vector<Piece>& pieces, const std::string& name) {
 
 TEST(Ablation, TriesWhatTheSceneHasAndNothingElse) {
   const auto report = pieces_of(small("report.toml")), empty = pieces_of(small("hexagon_empty.toml"));
-  for (const char* name : {"Lambertian for rough materials", "Schlick's Fresnel", "caustics off"}) {
+  for (const char* name : {"Lambertian for rough materials", "Schlick's Fresnel", "caustics off", "light paths 0",
+                           "light paths 0.0125", "light paths 0.2", "sphere connections off"}) {
     EXPECT_TRUE(has(report, name)) << name;
     EXPECT_FALSE(has(empty, name)) << name;
   }
@@ -28,7 +29,8 @@ TEST(Ablation, TriesWhatTheSceneHasAndNothingElse) {
     for (const char* name : {"max depth 1", "max depth 8", "shadow rays 30", "sampler sobol", "light sampling none",
                              "roulette constant", "mis on"})
       EXPECT_TRUE(has(pieces, name)) << name;
-    for (const char* name : {"shadow rays 1", "sampler lattice", "caustics on"})
+    for (const char* name :
+         {"shadow rays 1", "sampler lattice", "caustics on", "light paths 0.05", "sphere connections on"})
       EXPECT_FALSE(has(pieces, name)) << name << " is what the scene has";
   }
 }
