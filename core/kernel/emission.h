@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernel/intersect.h"
 #include "kernel/light.h"
 
 /// Where light paths begin: on a lamp, towards the sphere around a mirror or glass.
@@ -13,10 +14,15 @@ struct Emission {
   Int<F> target;   ///< a path that meets another surface first does not count
 };
 
+/// One lamp has no more aims than there are surfaces.
+template <Features features>
+inline constexpr bool few_aims = features.one_parallelogram&& features.small_table;
+
 /// A pair of a lamp and what it is aimed at, in proportion to the flux between them as far as it can be guessed.
-template <class F>
+template <class F, Features features>
 Int<F> choose_aim(const CompiledScene& scene, F u) {
-  return choose_row(scene.aims[AimColumn::alias_threshold], scene.aims[AimColumn::alias_other], scene.aims.rows(), u);
+  return choose_row<F, few_aims<features>>(scene.aims[AimColumn::alias_threshold], scene.aims[AimColumn::alias_other],
+                                           scene.aims.rows(), u);
 }
 
 /// Whether a point of a lamp is where no path of the camera comes: outside the room or inside an opaque solid or
@@ -49,10 +55,10 @@ Mask<F> buried(const CompiledScene& scene, const Vec3<F>& point, const Int<F>& o
 
 /// A light path of the pair in that row: a point uniform by area, a direction uniform in the cone of the sphere around
 /// the target, or by the cosine where the point is inside that sphere.
-template <class F>
+template <class F, Features features>
 Emission<F> emit(const CompiledScene& scene, const Int<F>& row, const Point2<F>& on_lamp, const Point2<F>& to_target) {
-  const auto value = [&](AimColumn c) { return lookup(scene.aims[c], row); };
-  const LampRow<F, false> lamp{scene, as_int(value(AimColumn::lamp))};
+  const auto value = [&](AimColumn c) { return lookup_in<F, few_aims<features>>(scene.aims[c], row); };
+  const LampRow<F, features.one_parallelogram> lamp{scene, as_int(value(AimColumn::lamp))};
   const SurfacePoint<F> from = lamp_point(lamp, on_lamp.u, on_lamp.v);
   const Vec3<F> center{value(AimColumn::center_x), value(AimColumn::center_y), value(AimColumn::center_z)};
   const SphereCone<F> cone = cone_of_sphere(center - from.point, value(AimColumn::radius));

@@ -86,9 +86,9 @@ class LightPathTracer {
     s.depth = select(idle, I(-1), s.depth);
     const PathKey<F> key = first_key_of(s.path);
     s.key = {select(idle, key.a, s.key.a), select(idle, key.b, s.key.b), select(idle, key.index, s.key.index)};
-    const I row = choose_aim(scene_, number(s, HitDimension::lamp));
+    const I row = choose_aim<F, features>(scene_, number(s, HitDimension::lamp));
     const Point2<F> on_lamp = pair(s, HitDimension::lamp_u), to_target = pair(s, HitDimension::direction_u);
-    const Emission<F> emission = emit(scene_, row, on_lamp, to_target);
+    const Emission<F> emission = emit<F, features>(scene_, row, on_lamp, to_target);
     s.ray = {select(idle, emission.origin, s.ray.origin), select(idle, emission.direction, s.ray.direction),
              select(idle, emission.surface, s.ray.from)};
     s.flux = select(idle, emission.flux, s.flux);
