@@ -61,7 +61,7 @@ struct Settings {
   double roulette_below = 0.25;  ///< throughput, of 0..1, below which it is played
   Sampler sampler = Sampler::lattice;
   Caustics caustics = Caustics::on;
-  double light_paths = 0.05;  ///< from lamps to mirrors and glass, for each path from the camera; 0: no light tracing
+  double light_paths = 0.15;  ///< from lamps to mirrors and glass, for each path from the camera; 0: no light tracing
   SphereConnections sphere_connections = SphereConnections::on;
   int max_depth = 0;  ///< surfaces that a path may meet, its lamp included; 0: no limit
 

@@ -21,7 +21,7 @@ bool has(const std::vector<Piece>& pieces, const std::string& name) {
 TEST(Ablation, TriesWhatTheSceneHasAndNothingElse) {
   const auto report = pieces_of(small("report.toml")), empty = pieces_of(small("hexagon_empty.toml"));
   for (const char* name : {"Lambertian for rough materials", "Schlick's Fresnel", "caustics off", "light paths 0",
-                           "light paths 0.0125", "light paths 0.2", "sphere connections off"}) {
+                           "light paths 0.05", "light paths 0.5", "sphere connections off"}) {
     EXPECT_TRUE(has(report, name)) << name;
     EXPECT_FALSE(has(empty, name)) << name;
   }
@@ -30,7 +30,7 @@ TEST(Ablation, TriesWhatTheSceneHasAndNothingElse) {
                              "roulette constant", "mis on"})
       EXPECT_TRUE(has(pieces, name)) << name;
     for (const char* name :
-         {"shadow rays 1", "sampler lattice", "caustics on", "light paths 0.05", "sphere connections on"})
+         {"shadow rays 1", "sampler lattice", "caustics on", "light paths 0.15", "sphere connections on"})
       EXPECT_FALSE(has(pieces, name)) << name << " is what the scene has";
   }
 }
