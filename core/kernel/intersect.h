@@ -17,7 +17,7 @@ struct Features {
   bool small_table;        ///< no more surfaces than lookup_small can hold
   bool one_parallelogram;  ///< the only lamp
   bool oren_nayar;
-  bool caustics;  ///< light paths or connections over spheres
+  bool caustics;  ///< light paths or connections over spheres, or the setting is not `on`
   bool rare;      ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON;
                   ///< settings other than the defaults
 };

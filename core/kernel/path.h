@@ -47,7 +47,7 @@ class PathTracer {
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
         over_roulette_below_(static_cast<float>(1 / scene.settings.roulette_below)),
         next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0 &&
-                    choices().caustics != Caustics::only),
+                    scene.settings.caustics != Caustics::only),
         mis_(next_event_ && choices().mis == Mis::on),
         connects_(!scene.chain_spheres.empty()),
         connector_(scene) {}
@@ -97,7 +97,7 @@ class PathTracer {
     s.throughput = select(idle, V::all(F(1.0f)), s.throughput);
     s.radiance = select(idle, V::all(F(0.0f)), s.radiance);
     if (scene_.has_glass) s.ior2 = select(idle, F(1.0f), s.ior2);
-    const F share(choices().caustics == Caustics::only ? 0.0f : 1.0f);
+    const F share(caustics() == Caustics::only ? 0.0f : 1.0f);
     s.lamp_share = select(idle, share, s.lamp_share);
     if (features.caustics) s.caustic_share = select(idle, share, s.caustic_share);
     s.depth = select(idle, I(0), s.depth);
@@ -150,16 +150,15 @@ class PathTracer {
 
   /// What counts of the lamps that the path finds by chance from here on.
   void share_caustics(PathState<F>& s, const Shading<F>& at, F distance, const M& diffuse) const {
-    const Caustics caustics = choices().caustics;
-    if (caustics == Caustics::off) s.caustic_share = select(diffuse, F(0.0f), s.caustic_share);
-    if (caustics == Caustics::only)
+    if (caustics() == Caustics::off) s.caustic_share = select(diffuse, F(0.0f), s.caustic_share);
+    if (caustics() == Caustics::only)
       s.caustic_share = select(diffuse & !(s.caustic_share > F(0.0f)), F(1.0f), s.caustic_share);
     if (light_traced()) {
       const F chance =
           F(1.0f) - light_path_share(scene_, pinhole_importance(scene_, s.ray.direction, distance, at.cos_o));
       s.caustic_share = select(diffuse & equal(s.depth, I(0)), chance, s.caustic_share);
     }
-    const bool lamps = !next_event_ && caustics != Caustics::only;
+    const bool lamps = !next_event_ && caustics() != Caustics::only;
     const F after_specular = features.caustics ? s.caustic_share : F(1.0f);
     s.lamp_share = select(diffuse, F(lamps ? 1.0f : 0.0f), after_specular);
   }
@@ -196,7 +195,7 @@ class PathTracer {
     M shines = light & at.front;
     const M counts = s.lamp_share > F(0.0f);
     shines = shines & (mis_ ? counts | (s.pdf_w > F(0.0f)) : counts);
-    if (features.rare && scene_.has_glow && choices().caustics != Caustics::only) shines = shines | !light;
+    if (features.rare && scene_.has_glow && caustics() != Caustics::only) shines = shines | !light;
     shines = shines & !missed;
     if ((!features.small_table || mis_) && !any(shines)) return;
     V emission = select(shines, surfaces_.vector(Column::emission_r, at), V::all(F(0.0f)));
@@ -299,6 +298,7 @@ class PathTracer {
 
   bool light_traced() const { return features.caustics && light_traced_; }
   bool connects() const { return features.caustics && connects_; }
+  Caustics caustics() const { return features.caustics ? scene_.settings.caustics : Caustics::on; }
   const Settings& choices() const { return settings_of<features>(scene_); }
 
   static constexpr float constant_survival = 0.75f;  ///< the report's

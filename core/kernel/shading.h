@@ -124,11 +124,11 @@ const Settings& settings_of(const CompiledScene& scene) {
   return features.rare ? scene.settings : usual_settings;
 }
 
-/// Whether `usual_settings` are the scene's.
+/// Whether `usual_settings` are the scene's, but for those that are read at run time.
 inline bool has_usual_settings(const Settings& s) {
   const Settings& usual = usual_settings;
   return s.light_sampling == usual.light_sampling && s.mis == usual.mis && s.sampler == usual.sampler &&
-         s.caustics == usual.caustics && s.max_depth == usual.max_depth;
+         s.max_depth == usual.max_depth;
 }
 
 /// f(std::integral_constant<Features, features>{}) with what the scene needs.
@@ -138,7 +138,8 @@ void with_features(const CompiledScene& scene, Function f) {
                     scene.has_eon || !has_usual_settings(scene.settings) ||
                     std::any_of(scene.solids.begin(), scene.solids.end(), [](const Solid& s) { return s.glass; });
   const bool one = scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
-  const bool caustics = scene.light_paths > 0 || !scene.chain_spheres.empty();
+  const bool caustics =
+      scene.light_paths > 0 || !scene.chain_spheres.empty() || scene.settings.caustics != usual_settings.caustics;
   const auto usual = [&]<bool oren_nayar>() {
     if (caustics) {
       f(std::integral_constant<Features, Features{true, true, oren_nayar, true, false}>{});
