@@ -16,7 +16,7 @@ struct Emission {
 
 /// One lamp has no more aims than there are surfaces.
 template <Features features>
-inline constexpr bool few_aims = features.one_parallelogram&& features.small_table;
+inline constexpr bool few_aims = (features.one_parallelogram) && (features.small_table);
 
 /// A pair of a lamp and what it is aimed at, in proportion to the flux between them as far as it can be guessed.
 template <class F, Features features>
