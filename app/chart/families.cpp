@@ -7,7 +7,6 @@
 #include "chart/materials.h"
 #include "chart/relative_weights.h"
 #include "scene/camera_view.h"
-#include "scene/lowering.h"
 #include "scene/pick.h"
 
 namespace glimt {

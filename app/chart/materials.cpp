@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/lowering.h"
-
 namespace glimt {
 
 bool has_material(const Scene& scene, bool (*is)(const Material&)) {

@@ -24,11 +24,6 @@ BoundingSphere bounding_sphere(const std::vector<dvec3>& vertices) {
   return {center, radius};
 }
 
-bool is_specular(const Material& material) {
-  return material.type == MaterialType::glass ||
-         (material.type == MaterialType::mirror && material.reflectance != dvec3{0});
-}
-
 void add_target(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
                 int last_surface) {
   if (is_specular(material)) l.targets.push_back({bounds, first_surface, last_surface});

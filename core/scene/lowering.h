@@ -76,9 +76,6 @@ struct TableRow {
   void set_int(ColumnType c, std::int32_t value) const { table[c][row] = std::bit_cast<float>(value); }
 };
 
-/// Glass, or a mirror that is not black.
-bool is_specular(const Material& material);
-
 std::array<float, 3> to_floats(const glm::dvec3& v);
 
 /// True for four vertices of a parallelogram, in order.

@@ -43,6 +43,12 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Glass, or a mirror that is not black.
+inline bool is_specular(const Material& material) {
+  return material.type == MaterialType::glass ||
+         (material.type == MaterialType::mirror && material.reflectance != glm::dvec3{0});
+}
+
 struct Camera {
   glm::dvec3 eye{0, 0, 5};
   glm::dvec3 look_at{0, 0, 0};
