@@ -26,7 +26,7 @@ Scene with_materials(Scene scene, bool (*is)(const Material&), void (*change)(Ma
 std::vector<double> values_to_try(std::string_view key) {
   if (key == "shadow_rays") return {1, 2, 4, 8, 30};
   if (key == "max_depth") return {1, 2, 4, 8};
-  if (key == "light_paths") return {0, 0.05, 0.15, 0.5};
+  if (key == "light_paths") return {0, 0.1, 0.3, 1};
   return {};
 }
 

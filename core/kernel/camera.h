@@ -7,6 +7,7 @@
 
 #include "kernel/kernels.h"
 #include "kernel/random.h"
+#include "kernel/squares.h"
 #include "math/vec.h"
 
 namespace glimt {
@@ -22,7 +23,7 @@ struct PathQueue {
 
   Array<float> direction_x, direction_y, direction_z;
   Array<std::uint32_t> key_a, key_b, key_index;  ///< past the camera's dimensions
-  Array<std::int32_t> path;                      ///< number of the path in its block; -1 where there is none
+  Array<std::int32_t> path;                      ///< the path's place in PathSums; -1 where there is none
   int next = capacity;                           ///< first place not taken yet
 
   void store_key(const PathKey<F>& key, int place) {
@@ -38,24 +39,58 @@ class PathSource {
  public:
   virtual ~PathSource() = default;
   virtual Vec3<F> origin() const = 0;        ///< of all first rays, compiled space
-  virtual int paths() const = 0;             ///< all of them; numbered from 0
   virtual bool exhausted() const = 0;        ///< every path has been put into a queue
   virtual void refill(PathQueue<F>& q) = 0;  ///< moves what is left in the queue to its front and fills the rest
 };
 
-/// Camera rays of a block, each through a uniform point of its pixel (box filter).
+/// The ray through a pixel's sample, and the key of its path, at the camera's dimensions.
+template <class F>
+struct CameraSample {
+  Vec3<F> direction;
+  PathKey<F> key;
+};
+
+/// Sub-pixels in the order of samples, as many along each side as the samples to take need.
+template <class F>
+Point2<F> sub_pixel_centre(const CompiledScene& scene, const Int<F>& sample) {
+  const float side = std::ceil(std::sqrt(static_cast<float>(scene.settings.spp)));
+  const auto mod = [](F a, float n) { return a - F(n) * to_float(to_int((a + F(0.5f)) * F(1 / n))); };
+  const F cell = mod(to_float(sample), side * side);
+  const F column = mod(cell, side);
+  const F row = to_float(to_int((cell + F(0.5f)) * F(1 / side)));
+  return {(column + F(0.5f)) * F(1 / side), (row + F(0.5f)) * F(1 / side)};
+}
+
+/// Of several rays of the sample, number `k` of `count`.
+template <class F>
+CameraSample<F> camera_sample(const CompiledScene& scene, const Int<F>& px, const Int<F>& py, const Int<F>& sample,
+                              int count = 1, int k = 0) {
+  const Sampler sampler = scene.settings.sampler;
+  const Uint<F> pixel = as_uint(py * Int<F>(scene.width) + px);
+  const PathKey<F> key = first_key<F>(sampler, static_cast<std::uint32_t>(scene.settings.seed), pixel, as_uint(sample));
+  const Point2<F> in_pixel =
+      sampler == Sampler::centres
+          ? sub_pixel_centre<F>(scene, sample)
+          : random_pair<F>(sampler, key, {Int<F>(0)}, static_cast<std::uint32_t>(Dimension::pixel_x), count, k);
+  const F x = to_float(px) + in_pixel.u, y = to_float(py) + in_pixel.v;
+  return {normalize(fma(broadcast<F>(scene.camera.right), x,
+                        fma(broadcast<F>(scene.camera.down), y, broadcast<F>(scene.camera.corner)))),
+          key};
+}
+
+/// Camera rays of all squares of a block, each through a uniform point of its pixel (box filter).
 template <class F>
 class CameraRays final : public PathSource<F> {
  public:
-  CameraRays(const CompiledScene& scene, const PathBlock& block)
+  CameraRays(const CompiledScene& scene, const Squares<F>& squares)
       : scene_(scene),
-        block_(block),
-        x_(block.x0),
-        y_(block.y0),
-        sample_(static_cast<std::int32_t>(block.first_sample)) {}
+        squares_(squares),
+        block_(squares.whole),
+        x_(block_.x0),
+        y_(block_.y0),
+        sample_(static_cast<std::int32_t>(block_.first_sample)) {}
 
   Vec3<F> origin() const override { return broadcast<F>(scene_.camera.eye); }
-  int paths() const override { return block_.paths(); }
   bool exhausted() const override { return next_path_ >= block_.paths(); }
 
   void refill(PathQueue<F>& q) override {
@@ -72,7 +107,6 @@ class CameraRays final : public PathSource<F> {
  private:
   void generate(PathQueue<F>& q, int place) {
     using I = Int<F>;
-    using U = Uint<F>;
     const I lane = lane_numbers<F>();
     I px = I(x_) + lane, py = I(y_), sample = I(sample_);
     const int x_end = block_.x0 + block_.width, y_end = block_.y0 + block_.height;
@@ -83,35 +117,15 @@ class CameraRays final : public PathSource<F> {
       py = select(below, I(block_.y0), py);
       sample = select(below, sample + I(1), sample);
     }
-    const I path = I(next_path_) + lane;
-    store(select(less(path, I(block_.paths())), path, I(-1)), q.path.data() + place);
+    const Mask<F> exists = less(I(next_path_) + lane, I(block_.paths()));
+    const I first(static_cast<std::int32_t>(block_.first_sample));
+    store(select(exists, squares_.place(px, py, I(sample - first)), I(-1)), q.path.data() + place);
     advance();
-    const U pixel = as_uint(py * I(scene_.width) + px);
-    const Sampler sampler = scene_.settings.sampler;
-    PathKey<F> key = first_key<F>(sampler, static_cast<std::uint32_t>(scene_.settings.seed), pixel, as_uint(sample));
-    const Point2<F> in_pixel =
-        sampler == Sampler::centres
-            ? sub_pixel_centre(sample)
-            : random_pair<F>(sampler, key, {I(0)}, static_cast<std::uint32_t>(Dimension::pixel_x));
-    const F x = to_float(px) + in_pixel.u;
-    const F y = to_float(py) + in_pixel.v;
-    const Vec3<F> direction =
-        normalize(fma(broadcast<F>(scene_.camera.right), x,
-                      fma(broadcast<F>(scene_.camera.down), y, broadcast<F>(scene_.camera.corner))));
-    store(direction.x, q.direction_x.data() + place);
-    store(direction.y, q.direction_y.data() + place);
-    store(direction.z, q.direction_z.data() + place);
-    q.store_key(skip_dimensions<F>(key, static_cast<std::uint32_t>(Dimension::camera_count)), place);
-  }
-
-  /// Sub-pixels in the order of samples, as many along each side as the samples to take need.
-  Point2<F> sub_pixel_centre(Int<F> sample) const {
-    const float side = std::ceil(std::sqrt(static_cast<float>(scene_.settings.spp)));
-    const auto mod = [](F a, float n) { return a - F(n) * to_float(to_int((a + F(0.5f)) * F(1 / n))); };
-    const F cell = mod(to_float(sample), side * side);
-    const F column = mod(cell, side);
-    const F row = to_float(to_int((cell + F(0.5f)) * F(1 / side)));
-    return {(column + F(0.5f)) * F(1 / side), (row + F(0.5f)) * F(1 / side)};
+    const CameraSample<F> camera = camera_sample<F>(scene_, px, py, sample);
+    store(camera.direction.x, q.direction_x.data() + place);
+    store(camera.direction.y, q.direction_y.data() + place);
+    store(camera.direction.z, q.direction_z.data() + place);
+    q.store_key(skip_dimensions<F>(camera.key, static_cast<std::uint32_t>(Dimension::camera_count)), place);
   }
 
   void advance() {
@@ -124,6 +138,7 @@ class CameraRays final : public PathSource<F> {
   }
 
   const CompiledScene& scene_;
+  const Squares<F>& squares_;
   const PathBlock& block_;
   int x_, y_;
   std::int32_t sample_;
@@ -140,7 +155,6 @@ class GivenRay final : public PathSource<F> {
     auto component = [&](std::size_t k) { return F(static_cast<float>(path_.origin[k] - scene_.origin[k])); };
     return {component(0), component(1), component(2)};
   }
-  int paths() const override { return 1; }
   bool exhausted() const override { return used_; }
 
   void refill(PathQueue<F>& q) override {

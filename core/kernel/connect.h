@@ -4,6 +4,7 @@
 #include <bit>
 #include <vector>
 
+#include "kernel/path_sums.h"
 #include "kernel/random.h"
 #include "kernel/shading.h"
 #include "kernel/sphere_chain.h"
@@ -34,9 +35,9 @@ class Connector {
  public:
   explicit Connector(const CompiledScene& scene) : scene_(scene), surfaces_(scene) {}
 
-  /// Room for the sums of so many paths.
-  void begin(int paths) {
-    sums_.assign(3 * static_cast<std::size_t>(paths), 0.0f);
+  /// Room for so many sums.
+  void begin(std::size_t sums) {
+    sums_.assign(3 * sums, 0.0f);
     ConnectionPoint<F> none;
     visit(none, [](auto&, auto& places) { places.fill({}); });
   }
@@ -53,11 +54,12 @@ class Connector {
     visit(p, [](auto&, auto& places) { std::copy_n(places.begin() + lane_count<F>, lane_count<F>, places.begin()); });
   }
 
-  /// Adds to each path what its connections found. In the order of its surfaces, whatever other paths there are.
-  void finish(float* rgb) {
+  /// Adds to each sum what connections found. In the order of a path's surfaces, whatever other paths there are.
+  void finish(PathSums<F>& sums) {
     if (count_ > 0) connect(count_);
     count_ = 0;
-    for (std::size_t i = 0; i < sums_.size(); ++i) rgb[i] += sums_[i];
+    for (std::size_t i = 0; i < sums_.size() / 3; ++i)
+      sums.add(static_cast<std::int32_t>(i), sums_[3 * i], sums_[3 * i + 1], sums_[3 * i + 2]);
   }
 
  private:
@@ -216,7 +218,7 @@ class Connector {
 
   const CompiledScene& scene_;
   Surfaces<F, features> surfaces_;
-  std::vector<float> sums_;  ///< by path, three channels
+  std::vector<float> sums_;  ///< as in PathSums, three channels
   std::array<Waiting<float>, 13> numbers_;
   std::array<Waiting<std::int32_t>, 3> integers_;
   std::array<Waiting<std::uint32_t>, 3> keys_;

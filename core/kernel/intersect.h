@@ -214,21 +214,23 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
 }
 
 /// Whether something lies between a ray's origin, which is on no glass, and the point of a lamp at `distance`. The
-/// surfaces from `first` to `last` are the lamp's own and do not count. `to_eye`: the point is the eye, and all do.
-template <class F, Features features, bool to_eye = false>
+/// surfaces from `first` to `last` are the lamp's own and do not count, nor do others of a convex solid that has them.
+/// `to_any`: the point is anywhere, so the lamps count too.
+template <class F, Features features, bool to_any = false>
 Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<F> first, Int<F> last) {
   using namespace detail;
   Mask<F> hidden = F(1.0f) < F(0.0f);
   // A single piece of a lamp need not be tested at all, which spares the others the question whose they are.
-  const bool one = !to_eye && (features.one_parallelogram || scene.lamps.rows() == 1);
+  const bool one = !to_any && (features.one_parallelogram || scene.lamps.rows() == 1);
   const auto only = one ? std::bit_cast<std::int32_t>(scene.lamps[LampColumn::first_surface][0]) : -1;
-  auto hide = [&](const Mask<F>& blocks, std::int32_t surface) {
+  const auto hide_range = [&](const Mask<F>& blocks, std::int32_t lowest, std::int32_t highest) {
     if (one) {
       hidden = hidden | blocks;
     } else {
-      hidden = hidden | (blocks & (less(Int<F>(surface), first) | less(last, Int<F>(surface))));
+      hidden = hidden | (blocks & (less(Int<F>(highest), first) | less(last, Int<F>(lowest))));
     }
   };
+  const auto hide = [&](const Mask<F>& blocks, std::int32_t surface) { hide_range(blocks, surface, surface); };
   for (const PolygonShape& polygon : scene.polygons) {
     if (polygon.surface == only) continue;
     Mask<F> inside;
@@ -241,7 +243,7 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
     Mask<F> crosses = (span.near_t <= span.far_t) & (span.near_t > F(0.0f)) & (span.near_t < distance);
     if (features.rare && solid.glass)
       crosses = crosses | ((span.near_t <= F(0.0f)) & (span.far_t > F(0.0f)) & (span.far_t < distance));
-    hide(crosses, solid.first_surface);
+    hide_range(crosses, solid.first_surface, solid.last_surface);
   }
   for (const SphereShape& sphere : scene.spheres) {
     if (sphere.surface == only) continue;
@@ -263,12 +265,14 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
   if (scene.room_hides_lamps) {
     for (const Slab& slab : scene.room) {
       Mask<F> towards_hi;
-      hidden = hidden | (slab_exit(slab, ray, towards_hi) < distance * F(1 - 0x1p-16f));
+      const Mask<F> beyond = slab_exit(slab, ray, towards_hi) < distance * F(1 - 0x1p-16f);
+      hide(beyond & towards_hi, slab.surface_hi);
+      hide(beyond & !towards_hi, slab.surface_lo);
     }
   }
   for (const SphereShape& sphere : scene.shells) {
     const SphereRoots<F> roots = sphere_roots(sphere, ray);
-    hidden = hidden | (roots.middle + sqrt(roots.square) < distance * F(1 - 0x1p-16f));
+    hide(roots.middle + sqrt(roots.square) < distance * F(1 - 0x1p-16f), sphere.surface);
   }
   return hidden;
 }

@@ -25,7 +25,8 @@ struct PathBlock {
 };
 
 /// Radiance of every path of the block, into rgb[3 * paths()]: sample by sample, in each row by row. A path's value is
-/// a pure function of (scene, seed, pixel, sample): the same for every block it is in and every lane width.
+/// a pure function of (scene, seed, pixel, sample): the same for every block it is in and every lane width. With path
+/// sharing the other paths of its square are traced for it, wherever the block ends.
 void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, float* rgb);
 
 /// Some of the light paths of one pass: those that belong to one sample of every pixel.
@@ -44,7 +45,7 @@ struct Splat {
 /// sum over a pass is what camera paths of that sample, as trace() traces them, leave out.
 void trace_light(const CompiledScene& scene, const LightBlock& block, Lanes lanes, std::vector<Splat>& splats);
 
-/// A path whose first ray is not the camera's.
+/// A path whose first ray is not the camera's, and which is alone: without sharing and light paths.
 struct GivenPath {
   std::array<double, 3>
       origin{};  ///< scene coordinates, in the region that the camera sees: the rest may have been left out

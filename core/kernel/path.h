@@ -1,13 +1,16 @@
 #pragma once
 
 #include <bit>
+#include <optional>
 
 #include "kernel/camera.h"
 #include "kernel/connect.h"
 #include "kernel/found_chain.h"
+#include "kernel/lamp_edges.h"
 #include "kernel/pinhole.h"
 #include "kernel/results.h"
 #include "kernel/shading.h"
+#include "kernel/tail_sharing.h"
 #include "kernel/trace.h"
 
 /// The path loop: one path a lane, no recursion. A lane whose path has ended takes the next path at once.
@@ -27,7 +30,9 @@ struct PathState {
   Mask<F> connects;  ///< diffuse surfaces are connected to lamps over spheres: the first surface was specular
   PathKey<F> key;    ///< its dimension 0 is the first of the next hit
   Int<F> depth;      ///< surfaces hit before
-  Int<F> path;       ///< number in the block, or -1 for a lane without work
+  Int<F> path;       ///< where its radiance belongs in PathSums, or -1 for a lane without work
+  Int<F> first;      ///< of the first diffuse surface, if it was the last, its class and side; first_none, first_past
+  Vec3<F> first_throughput, first_wo;  ///< there, where it may be rough
 };
 
 template <class F, Features features>
@@ -38,12 +43,13 @@ class PathTracer {
   using V = Vec3<F>;
 
  public:
-  /// `light_traced`: the paths are the camera's, and light paths do their part.
-  PathTracer(const CompiledScene& scene, float* rgb, bool light_traced)
+  /// `light_traced`: the paths are the camera's, and light paths do their part. `sharing`: null where there is none.
+  PathTracer(const CompiledScene& scene, PathSums<F>& sums, bool light_traced, TailSharing<F, features>* sharing)
       : scene_(scene),
         surfaces_(scene),
-        rgb_(rgb),
+        sums_(sums),
         light_traced_(light_traced),
+        sharing_(sharing),
         hit_block_(hit_dimensions(scene.settings.shadow_rays)),
         over_roulette_below_(static_cast<float>(1 / scene.settings.roulette_below)),
         next_event_(choices().light_sampling != LightSampling::none && scene.lamps.rows() > 0 &&
@@ -52,7 +58,7 @@ class PathTracer {
         connects_(!scene.chain_spheres.empty()),
         connector_(scene) {}
 
-  /// Traces all paths of the source and writes each one's radiance to rgb[3 * its number].
+  /// Traces all paths of the source and adds up what each one gathers.
   void run(PathSource<F>& source) {
     PathQueue<F> queue;
     PathState<F> s{};
@@ -61,7 +67,7 @@ class PathTracer {
     s.lamp_share = s.caustic_share = F(0.0f);
     s.connects = F(1.0f) < F(0.0f);
     s.chain = {I(chain_none), F(0.0f), F(0.0f)};
-    if (connects()) connector_.begin(source.paths());
+    if (connects()) connector_.begin(sums_.size());
     const V origin = source.origin();
     s.ray = {origin, {F(0.0f), F(0.0f), F(1.0f)}, I(-1)};
     for (;;) {
@@ -74,7 +80,7 @@ class PathTracer {
       finish(s, ended);
     }
     done_.flush(writer());
-    if (connects()) connector_.finish(rgb_);
+    if (connects()) connector_.finish(sums_);
   }
 
  private:
@@ -101,6 +107,7 @@ class PathTracer {
     s.lamp_share = select(idle, share, s.lamp_share);
     if (features.caustics) s.caustic_share = select(idle, share, s.caustic_share);
     s.depth = select(idle, I(0), s.depth);
+    if (sharing_) s.first = select(idle, I(first_none), s.first);
     if (connects()) {
       s.chain.stage = select(idle, I(chain_none), s.chain.stage);
       s.connects = s.connects | idle;
@@ -119,7 +126,9 @@ class PathTracer {
     add_emission(s, at, hit.t, light, missed);
     const M diffuse = equal(at.kind, I(kind_diffuse)) & !missed;
     const M glass = equal(at.kind, I(kind_glass)) & !missed;
+    if (sharing_) begin_tails(s, at, diffuse);
     s.throughput = s.throughput * surfaces_.reflectance(at);
+    const V wo = s.ray.direction * F(-1.0f), reflected = s.throughput;
     V direction = s.ray.direction;
     const Point2<F> uv = pair(s, HitDimension::direction_u);
     M enters = F(1.0f) < F(0.0f);
@@ -142,10 +151,41 @@ class PathTracer {
     if (mis_) s.pdf_w = select(diffuse, s.pdf_w, F(0.0f));
     if (choices().max_depth > 0) ended = ended | !may_go_on(s);
     const F brightest = max_component(s.throughput);
-    ended = ended | !(brightest > F(0.0f)) | roulette(s, brightest, diffuse);
+    const F made_up = roulette(s, brightest, diffuse);
+    s.throughput = s.throughput * made_up;
+    ended = ended | !(brightest > F(0.0f)) | !(made_up > F(0.0f));
+    if (sharing_) note_first(s, at, diffuse & !ended, wo, reflected * made_up);
     s.key = skip_dimensions<F>(s.key, hit_block_);
     s.depth = s.depth + I(1);
     return ended;
+  }
+
+  /// At the first diffuse surface.
+  void note_first(PathState<F>& s, const Shading<F>& at, const M& diffuse, const V& wo, const V& throughput) const {
+    const M first = diffuse & equal(s.first, I(first_none));
+    // What a tail holds depends on whether the first surface was specular, and its length on where a limit leaves it.
+    const I of_class = choices().max_depth > 0 ? s.depth : select(less(I(0), s.depth), I(1), I(0));
+    s.first = select(first, of_class + of_class + select(at.front, I(1), I(0)), s.first);
+    if (!surfaces_.has_rough()) return;
+    s.first_throughput = select(first, throughput, s.first_throughput);
+    s.first_wo = select(first, wo, s.first_wo);
+  }
+
+  /// At the surface after that.
+  void begin_tails(PathState<F>& s, const Shading<F>& at, const M& diffuse) {
+    const M second = less(I(first_none), s.first) & less(I(-1), s.path);
+    if (!any(second)) return;
+    const M tailed = second & diffuse & sharing_->is_matt(at);
+    const bool rough = surfaces_.has_rough();
+    const FirstDiffuse<F> x{s.ray, equal(s.first & I(1), I(1)), s.first >> 1, rough ? s.first_throughput : s.throughput,
+                            s.first_wo};
+    sharing_->add(x, at, tailed, s.path, second);
+    s.first = select(second, I(first_past), s.first);
+    if (!any(tailed)) return;
+    done_.add(s.radiance, s.path, tailed, writer());
+    s.path = s.path + select(tailed, I(sums_.places()), I(0));
+    s.radiance = select(tailed, V::all(F(0.0f)), s.radiance);
+    s.throughput = select(tailed, V::all(F(1.0f)), s.throughput);
   }
 
   /// What counts of the lamps that the path finds by chance from here on.
@@ -173,12 +213,7 @@ class PathTracer {
   }
 
   auto writer() const {
-    return [rgb = rgb_](std::int32_t path, float r, float g, float b) {
-      float* out = rgb + 3 * static_cast<std::ptrdiff_t>(path);
-      out[0] = r;
-      out[1] = g;
-      out[2] = b;
-    };
+    return [&sums = sums_](std::int32_t path, float r, float g, float b) { sums.add(path, r, g, b); };
   }
 
   /// Random numbers of a hit; of several, number `k` of `count`.
@@ -191,7 +226,7 @@ class PathTracer {
                             static_cast<std::uint32_t>(dimension), count, k);
   }
 
-  void add_emission(PathState<F>& s, const Shading<F>& at, F t, const M& light, const M& missed) const {
+  void add_emission(PathState<F>& s, const Shading<F>& at, F t, const M& light, const M& missed) {
     M shines = light & at.front;
     const M counts = s.lamp_share > F(0.0f);
     shines = shines & (mis_ ? counts | (s.pdf_w > F(0.0f)) : counts);
@@ -215,6 +250,14 @@ class PathTracer {
         chained = chained & less(I(-1), row);
         const F share = chance_share(scene_, surfaces_, s.chain, s.ray, at, select(chained, row, I(0)));
         emission = emission * select(chained, share, F(1.0f));
+      }
+    }
+    if (sharing_ && light_traced()) {
+      // What counts by chance depends on the first surface, if that was diffuse, so no other can have it.
+      const M alone = shines & light & counts & (s.caustic_share < F(1.0f)) & less(I(sums_.places() - 1), s.path);
+      if (any(alone)) {
+        done_.add(s.throughput * emission, s.path + I(sums_.places()), alone, writer());
+        emission = select(alone, V::all(F(0.0f)), emission);
       }
     }
     s.radiance = fma(s.throughput, emission, s.radiance);
@@ -281,19 +324,18 @@ class PathTracer {
     return direct;
   }
 
-  /// Ends paths at random and makes up for it in those that go on.
-  M roulette(PathState<F>& s, F brightest, const M& diffuse) const {
+  /// Ends paths at random, whose factor is then 0, and makes up for it in those that go on.
+  F roulette(const PathState<F>& s, F brightest, const M& diffuse) const {
     const bool constant = scene_.settings.roulette == Roulette::constant;
     const M trapped = !less(s.depth, I(trapped_depth));
     // The square of the index is left out: it comes back when the path leaves the glass.
     const F share = brightest * s.ior2 * F(over_roulette_below_);
     const M late = (share < F(1.0f)) & !less(s.depth, I(scene_.settings.roulette_depth));
     const M plays = trapped | (constant ? diffuse : late);
-    if (!any(plays)) return plays;
+    if (!any(plays)) return F(1.0f);
     const F survival = constant ? F(constant_survival) : min(share, F(largest_survival));
-    const M dies = plays & !(number(s, HitDimension::roulette) < survival);
-    s.throughput = s.throughput * select(plays, reciprocal(survival), F(1.0f));
-    return dies;
+    const M lives = number(s, HitDimension::roulette) < survival;
+    return select(plays, select(lives, reciprocal(survival), F(0.0f)), F(1.0f));
   }
 
   bool light_traced() const { return features.caustics && light_traced_; }
@@ -301,12 +343,14 @@ class PathTracer {
   Caustics caustics() const { return features.caustics ? scene_.settings.caustics : Caustics::on; }
   const Settings& choices() const { return settings_of<features>(scene_); }
 
+  static constexpr std::int32_t first_none = -1, first_past = -2;
   static constexpr float constant_survival = 0.75f;  ///< the report's
   static constexpr int trapped_depth = 64;           ///< constant roulette is played by specular paths too from here on
   const CompiledScene& scene_;
   Surfaces<F, features> surfaces_;
-  float* rgb_;
+  PathSums<F>& sums_;
   bool light_traced_;
+  TailSharing<F, features>* sharing_;
   std::uint32_t hit_block_;  ///< dimensions of a hit
   float over_roulette_below_;
   bool next_event_;
@@ -317,22 +361,39 @@ class PathTracer {
 };
 
 template <class F>
-void trace_source(const CompiledScene& scene, PathSource<F>& source, float* rgb, bool light_traced) {
-  with_features(scene, [&](auto features) { PathTracer<F, features()>(scene, rgb, light_traced).run(source); });
-}
-
-template <class F>
 void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb) {
-  CameraRays<F> rays(scene, block);
-  trace_source<F>(scene, rays, rgb, scene.light_paths > 0);
+  const Squares<F> squares(block);
+  const int places = Squares<F>::members * squares.plane;
+  // Fresh memory for every block would cost a tenth of the time.
+  static thread_local PathSums<F> sums;
+  static thread_local TailTable table;
+  sums.begin(places);
+  CameraRays<F> rays(scene, squares);
+  with_features(scene, [&](auto features) {
+    std::optional<TailSharing<F, features()>> sharing;
+    if (scene.settings.path_sharing == PathSharing::on) {
+      table.begin(places);
+      sharing.emplace(scene, table);
+    }
+    PathTracer<F, features()>(scene, sums, scene.light_paths > 0, sharing ? &*sharing : nullptr).run(rays);
+    if (sharing) sharing->share(squares, sums);
+    if (!scene.lamp_edges.empty()) LampEdges<F, features()>(scene, squares).refine(sums);
+  });
+  for (int sample = 0; sample < block.samples; ++sample)
+    for (int y = block.y0; y < block.y0 + block.height; ++y)
+      for (int x = block.x0; x < block.x0 + block.width; ++x) {
+        const int place = squares.place(x, y, sample);
+        for (int c = 0; c < 3; ++c) *rgb++ = sums.channel(c)[place];
+      }
 }
 
 template <class F>
 Rgb trace_given_ray(const CompiledScene& scene, const GivenPath& path) {
   GivenRay<F> ray(scene, path);
-  std::array<float, 3> rgb{};
-  trace_source<F>(scene, ray, rgb.data(), false);
-  return {rgb[0], rgb[1], rgb[2]};
+  PathSums<F> sums;
+  sums.begin(1);
+  with_features(scene, [&](auto features) { PathTracer<F, features()>(scene, sums, false, nullptr).run(ray); });
+  return {sums.channel(0)[0], sums.channel(1)[0], sums.channel(2)[0]};
 }
 
 }  // namespace glimt

@@ -57,9 +57,7 @@ class Surfaces {
     Shading<F> at;
     at.surface = hit.surface;
     at.point = fma(ray.direction, hit.t, ray.origin);
-    const V n = vector(Column::normal_x, at);
-    const F inverse_radius = value(Column::inverse_radius, at);
-    at.normal = select(inverse_radius > F(0.0f), (at.point - n) * inverse_radius, n);
+    at.normal = own_normal(at);
     const F cos = dot(at.normal, ray.direction);
     at.front = cos < F(0.0f);
     at.normal = at.normal * select(at.front, F(1.0f), F(-1.0f));
@@ -67,6 +65,9 @@ class Surfaces {
     at.kind = as_int(value(Column::kind, at));
     return at;
   }
+
+  /// To the side that `at` says.
+  V normal(const Shading<F>& at) const { return own_normal(at) * select(at.front, F(1.0f), F(-1.0f)); }
 
   bool has_oren_nayar() const { return features.rare ? scene_.has_oren_nayar : features.oren_nayar; }
   bool has_eon() const { return features.rare && scene_.has_eon; }
@@ -110,6 +111,12 @@ class Surfaces {
   }
 
  private:
+  V own_normal(const Shading<F>& at) const {
+    const V n = vector(Column::normal_x, at);
+    const F inverse_radius = value(Column::inverse_radius, at);
+    return select(inverse_radius > F(0.0f), (at.point - n) * inverse_radius, n);
+  }
+
   static constexpr int small_stride = 32;  ///< of tables with up to 32 rows, so that columns are at fixed places
 
   const CompiledScene& scene_;

@@ -246,6 +246,7 @@ CompiledScene compile(const Scene& scene) {
   lower_lamps(l);
   lower_aims(l);
   lower_chains(l);
+  mark_lamp_edges(l);
   describe(l);
   warn(l);
   return std::move(l.out);

@@ -212,6 +212,7 @@ struct CompiledScene {
   int light_paths = 0;         ///< of every pass, from lamps to mirrors and glass; 0: caustics are found by chance
   float light_path_noise = 0;  ///< see kernel/pinhole.h
   Table<AimColumn> aims;
+  std::vector<int> lamp_edges;  ///< pixels that edges of lamps come near, in order; see kernel/lamp_edges.h
   std::vector<ChainSphere> chain_spheres;
   bool has_mirror = false, has_glass = false, has_oren_nayar = false, has_eon = false;
   bool has_glow = false;          ///< reflecting surfaces with emission

@@ -35,7 +35,7 @@ constexpr auto choice(std::span<const std::string_view> names) {
 constexpr double max_radiance = 1e9;
 
 // The method comes before what it sets, so that what a file or command line says beside it holds.
-const std::array<Field<Settings>, 15> settings_table{{
+const std::array<Field<Settings>, 16> settings_table{{
     {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
     {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
      &Settings::target_error, 0, 1e6},
@@ -67,6 +67,8 @@ const std::array<Field<Settings>, 15> settings_table{{
      &Settings::light_paths, 0, 16},
     {"sphere_connections", "caustics seen in mirrors and through glass: connections to lamps over single spheres",
      choice<&Settings::sphere_connections>(switch_names)},
+    {"path_sharing", "the four pixels of a square share the ends of their paths",
+     choice<&Settings::path_sharing>(switch_names)},
     {"max_depth", "surfaces that a path may meet, its lamp included; 0 for no limit", &Settings::max_depth, 0, 1000},
 }};
 
@@ -183,6 +185,7 @@ void set_method(Settings& settings, Method method) {
   if (method == Method::path) return;
   settings.light_paths = 0;
   settings.sphere_connections = SphereConnections::off;
+  settings.path_sharing = PathSharing::off;
   if (method == Method::naive) settings.light_sampling = LightSampling::none;
   if (method != Method::report) return;
   settings.light_sampling = LightSampling::area;

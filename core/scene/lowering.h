@@ -114,6 +114,9 @@ void lower_aims(Lowering& l);
 /// The spheres over which diffuse surfaces are connected to lamps; after lower_lamps().
 void lower_chains(Lowering& l);
 
+/// Pixels that look at edges of lamps.
+void mark_lamp_edges(Lowering& l);
+
 /// Warnings for scenes in which the chosen estimators cannot hold.
 void warn(Lowering& l);
 

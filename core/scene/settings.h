@@ -46,6 +46,9 @@ enum class Caustics { off, on, only };
 /// Whether caustics that are seen in mirrors and through glass are connected to lamps over single spheres.
 enum class SphereConnections { off, on };
 
+/// Whether the four pixels of a square share the ends of their paths (kernel/tail_sharing.h).
+enum class PathSharing { off, on };
+
 /// Everything that says how a scene is rendered, and nothing of what is in it. Declared for files, command line and
 /// window in fields.cpp.
 struct Settings {
@@ -61,8 +64,9 @@ struct Settings {
   double roulette_below = 0.25;  ///< throughput, of 0..1, below which it is played
   Sampler sampler = Sampler::lattice;
   Caustics caustics = Caustics::on;
-  double light_paths = 0.15;  ///< from lamps to mirrors and glass, for each path from the camera; 0: no light tracing
+  double light_paths = 0.3;  ///< from lamps to mirrors and glass, for each path from the camera; 0: no light tracing
   SphereConnections sphere_connections = SphereConnections::on;
+  PathSharing path_sharing = PathSharing::on;
   int max_depth = 0;  ///< surfaces that a path may meet, its lamp included; 0: no limit
 
   bool operator==(const Settings&) const = default;

@@ -65,7 +65,7 @@ void print(const char* name, const Convergence& c) {
 // sequences evenly do better: a one-sided t-test against a slope steeper than -1/2 by 0.02.
 TEST(Convergence, EvenSamplersAreFasterThanTheRootOfTheirNumber) {
   const Scene scene = read_scene(GLIMT_SCENES "/hexagon_empty.toml");
-  constexpr int pairs = 12;
+  constexpr int pairs = 20;
   const Convergence independent = measure(scene, Sampler::independent, pairs);
   print("independent", independent);
   EXPECT_GT(likelihood(independent.slope, -0.5), alpha)

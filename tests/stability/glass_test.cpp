@@ -29,6 +29,7 @@ Scene lossless_box() {
   scene.image = {32, 32};
   scene.render.roulette_depth = 64;
   scene.render.sampler = Sampler::independent;
+  scene.render.path_sharing = PathSharing::off;
   return scene;
 }
 

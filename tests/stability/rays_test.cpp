@@ -17,6 +17,7 @@ Scene glowing_room() {
     m = {.name = m.name, .type = MaterialType::lambertian, .reflectance = dvec3{1}, .emission = dvec3{1}};
   scene.render.max_depth = 64;
   scene.render.roulette_depth = 64;
+  scene.render.path_sharing = PathSharing::off;  // each path for itself
   return scene;
 }
 

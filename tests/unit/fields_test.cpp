@@ -118,7 +118,8 @@ TEST(Fields, MethodsSetTheirParts) {
                                 .sampler = Sampler::centres,
                                 .caustics = Caustics::off,
                                 .light_paths = 0,
-                                .sphere_connections = SphereConnections::off}));
+                                .sphere_connections = SphereConnections::off,
+                                .path_sharing = PathSharing::off}));
   set_method(settings, Method::path);
   EXPECT_EQ(settings, (Settings{.spp = 7, .target_error = 0.5, .shadow_rays = 3, .seed = 9}));
 }

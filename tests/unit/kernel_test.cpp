@@ -132,7 +132,9 @@ TEST(Kernel, WhatIsLeftOutChangesNothing) {
 TEST(Kernel, TraceRayReplaysACameraPath) {
   for (Scene scene : many_scenes()) {
     scene.render.light_paths = 0;  // which do not know of rays that are not the camera's
-    const CompiledScene compiled = compile(scene);
+    scene.render.path_sharing = PathSharing::off;
+    CompiledScene compiled = compile(scene);
+    compiled.lamp_edges.clear();
     const auto rgb = trace_all(compiled, 2, Lanes::native);
     for (int path = 0; path < 2 * compiled.width * compiled.height; path += 7) {
       const int pixels = compiled.width * compiled.height, pixel = path % pixels, sample = path / pixels;
