@@ -69,7 +69,7 @@ bool edit_size(ImageSize& size) {
 void draw_estimator_panel(const ViewerState& state, Edits& edits) {
   // So many rows that they stand closer than elsewhere, or a small window would not hold them.
   const ImGuiStyle& style = ImGui::GetStyle();
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, 0.5F * style.ItemSpacing.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, 0.3F * style.ItemSpacing.y});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, 0.75F * style.FramePadding.y});
   Settings settings = state.scene.render;
   bool changed = edit_target(settings);

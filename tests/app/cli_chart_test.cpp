@@ -154,7 +154,7 @@ TEST_F(ChartCommand, AblationPrintsATableAndNeedsNoChart) {
   ASSERT_EQ(result.status, 0) << result.err;
   for (const char* part : {"4 spp, 2 seeds", "verdict", "Schlick's Fresnel", "caustics off", "max depth 4",
                            "shadow rays 30", "sampler sobol", "light sampling none", "roulette constant",
-                           "light paths 0.05", "Other light in mirrors and glass"})
+                           "light paths 0.1", "Other light in mirrors and glass"})
     EXPECT_TRUE(has(result.out, part)) << part << " in " << result.out;
   EXPECT_FALSE(has(result.out, "Lambertian for")) << "nothing here is rough";
   const Result matt =

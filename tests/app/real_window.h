@@ -211,6 +211,14 @@ class WindowTest : public ::testing::Test {
     return text.ends_with(" 1\n");
   }
 
+  /// A picture was shown that is not the coarse one.
+  static bool has_samples() {
+    std::istringstream text(content("frames"));
+    for (std::string time, samples, end; text >> time >> samples >> end;)
+      if (samples != "0") return true;
+    return false;
+  }
+
   static std::string report_scene() { return std::string(GLIMT_SCENES) + "/report.toml"; }
 
   fs::path folder_;

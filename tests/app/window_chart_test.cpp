@@ -82,6 +82,7 @@ TEST_F(WindowChart, IsThereAgainAtTheNextStart) {
 TEST_F(WindowChart, KeysCompareWithWhatIsHeld) {
   open_window(report_scene());
   point_at("image");
+  ASSERT_TRUE(wait_for([] { return has_samples(); }));
   xdotool("key h");
   EXPECT_TRUE(says("Held to compare with"));
   xdotool("key x");

@@ -21,16 +21,16 @@ bool has(const std::vector<Piece>& pieces, const std::string& name) {
 TEST(Ablation, TriesWhatTheSceneHasAndNothingElse) {
   const auto report = pieces_of(small("report.toml")), empty = pieces_of(small("hexagon_empty.toml"));
   for (const char* name : {"Lambertian for rough materials", "Schlick's Fresnel", "caustics off", "light paths 0",
-                           "light paths 0.05", "light paths 0.5", "sphere connections off"}) {
+                           "light paths 0.1", "light paths 1", "sphere connections off"}) {
     EXPECT_TRUE(has(report, name)) << name;
     EXPECT_FALSE(has(empty, name)) << name;
   }
   for (const auto& pieces : {report, empty}) {
     for (const char* name : {"max depth 1", "max depth 8", "shadow rays 30", "sampler sobol", "light sampling none",
-                             "roulette constant", "mis on"})
+                             "roulette constant", "mis on", "path sharing off"})
       EXPECT_TRUE(has(pieces, name)) << name;
     for (const char* name :
-         {"shadow rays 1", "sampler lattice", "caustics on", "light paths 0.15", "sphere connections on"})
+         {"shadow rays 1", "sampler lattice", "caustics on", "light paths 0.3", "sphere connections on"})
       EXPECT_FALSE(has(pieces, name)) << name << " is what the scene has";
   }
 }
