@@ -94,7 +94,7 @@ void mark_lamp_edges(Lowering& l) {
       mark_line(seen(points[i]), seen(points[(i + 1) % points.size()]), l.out.width, l.out.height, pixels);
   }
   std::ranges::sort(pixels);
-  pixels.erase(std::ranges::unique(pixels).begin(), pixels.end());
+  pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
 }
 
 }  // namespace glimt
