@@ -2,8 +2,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "kernel/kernels.h"
-#include "scene/compiled_scene.h"
+#include "compile/compiled_scene.h"
+#include "kernel/entry/kernels.h"
 #include "scene_parts.h"
 #include "statistics_helpers.h"
 

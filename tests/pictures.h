@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "compile/compiled_scene.h"
 #include "film/film.h"
-#include "kernel/kernels.h"
+#include "kernel/entry/kernels.h"
 #include "render/render.h"
-#include "scene/compiled_scene.h"
 #include "statistics_helpers.h"
 
 namespace glimt {

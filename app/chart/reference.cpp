@@ -4,7 +4,7 @@
 
 #include "film/image_file.h"
 #include "film/statistics.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace glimt {
 

@@ -13,7 +13,7 @@
 #include "cli/progress_bar.h"
 #include "cli/render_options.h"
 #include "film/file_bytes.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace glimt {
 namespace fs = std::filesystem;

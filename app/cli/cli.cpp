@@ -4,7 +4,7 @@
 #include <new>
 
 #include "cli/commands.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace glimt {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "cli/commands.h"
-#include "scene/compiled_scene.h"
+#include "compile/compiled_scene.h"
 #include "scene/fields.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace glimt {
 namespace fs = std::filesystem;

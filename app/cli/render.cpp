@@ -11,7 +11,7 @@
 #include "film/file_bytes.h"
 #include "film/metadata.h"
 #include "film/statistics.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace glimt {
 namespace {

@@ -6,7 +6,7 @@
 #include "film/file_bytes.h"
 #include "film/image_file.h"
 #include "scene/fields.h"
-#include "scene/text.h"
+#include "scene/file/text.h"
 
 namespace glimt {
 namespace {

@@ -1,9 +1,9 @@
 #include <chrono>
 
 #include "cli/report_parts.h"
+#include "compile/compiled_scene.h"
 #include "film/statistics.h"
-#include "scene/compiled_scene.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace glimt {
 namespace {

@@ -7,7 +7,7 @@
 #include "chart/ablation.h"
 #include "chart/runs.h"
 #include "cli/report_parts.h"
-#include "scene/compiled_scene.h"
+#include "compile/compiled_scene.h"
 
 namespace glimt {
 namespace {

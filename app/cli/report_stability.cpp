@@ -4,8 +4,8 @@
 #include "chart/runs.h"
 #include "chart/svg_chart.h"
 #include "cli/report_parts.h"
+#include "compile/compiled_scene.h"
 #include "film/statistics.h"
-#include "scene/compiled_scene.h"
 
 namespace glimt {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "viewer/chart_panel.h"
-#include "viewer/labels.h"
-#include "viewer/layout.h"
-#include "viewer/style.h"
+#include "viewer/chart_view/chart_panel.h"
+#include "viewer/widgets/labels.h"
+#include "viewer/widgets/layout.h"
+#include "viewer/widgets/style.h"
 
 namespace glimt {
 namespace {

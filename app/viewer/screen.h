@@ -1,13 +1,13 @@
 #pragma once
 
-#include "viewer/compare_layer.h"
-#include "viewer/files_panel.h"
-#include "viewer/image_tool.h"
-#include "viewer/image_view.h"
-#include "viewer/inspector.h"
-#include "viewer/panels.h"
-#include "viewer/state.h"
-#include "viewer/widgets.h"
+#include "viewer/panels/files_panel.h"
+#include "viewer/panels/panels.h"
+#include "viewer/picture/compare_layer.h"
+#include "viewer/picture/image_tool.h"
+#include "viewer/picture/image_view.h"
+#include "viewer/picture/inspector.h"
+#include "viewer/state/state.h"
+#include "viewer/widgets/widgets.h"
 
 namespace glimt {
 

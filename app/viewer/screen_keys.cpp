@@ -1,5 +1,5 @@
-#include "viewer/compare_actions.h"
 #include "viewer/screen.h"
+#include "viewer/state/compare_actions.h"
 
 namespace glimt {
 namespace {

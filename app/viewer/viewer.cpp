@@ -10,12 +10,12 @@
 #include <string>
 #include <utility>
 
-#include "scene/scene_file.h"
-#include "viewer/controller.h"
-#include "viewer/logs.h"
+#include "scene/file/scene_file.h"
 #include "viewer/screen.h"
+#include "viewer/state/controller.h"
+#include "viewer/state/logs.h"
+#include "viewer/state/window_settings.h"
 #include "viewer/window.h"
-#include "viewer/window_settings.h"
 
 namespace glimt {
 namespace {

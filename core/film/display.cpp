@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "scene/text.h"
+#include "scene/file/text.h"
 
 namespace glimt {
 namespace {

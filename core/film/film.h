@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "film/large_memory.h"
-#include "kernel/kernels.h"
+#include "kernel/entry/kernels.h"
 
 namespace glimt {
 

@@ -4,7 +4,7 @@
 
 #include "film/file_bytes.h"
 #include "film/image_formats.h"
-#include "scene/text.h"
+#include "scene/file/text.h"
 
 namespace glimt {
 namespace {

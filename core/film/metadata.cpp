@@ -1,8 +1,8 @@
 #include "film/metadata.h"
 
 #include "scene/fields.h"
-#include "scene/scene_file.h"
-#include "scene/text.h"
+#include "scene/file/scene_file.h"
+#include "scene/file/text.h"
 
 namespace glimt {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "compile/compiled_scene.h"
 #include "film/film.h"
-#include "kernel/kernels.h"
-#include "scene/compiled_scene.h"
+#include "kernel/entry/kernels.h"
 
 namespace glimt {
 

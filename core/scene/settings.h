@@ -46,7 +46,7 @@ enum class Caustics { off, on, only };
 /// Whether caustics that are seen in mirrors and through glass are connected to lamps over single spheres.
 enum class SphereConnections { off, on };
 
-/// Whether the four pixels of a square share the ends of their paths (kernel/tail_sharing.h).
+/// Whether the four pixels of a square share the ends of their paths (kernel/sharing/tail_sharing.h).
 enum class PathSharing { off, on };
 
 /// Everything that says how a scene is rendered, and nothing of what is in it. Declared for files, command line and

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "kernel/light.h"
+#include "kernel/lamps/light.h"
 #include "scene_parts.h"
 #include "statistics_helpers.h"
 
@@ -11,7 +11,7 @@ using namespace glimt;
 
 // Samples of lamps follow the densities they claim. Cells of the lamp (or of the cone it is seen in) have probabilities
 // in closed form; counts are tested by chi-square with a probability of a false alarm of alpha for each test. The
-// hemisphere's are in unit/warp_test.cpp, glass's in scattering_test.cpp.
+// hemisphere's are in unit/math/warp_test.cpp, glass's in scattering_test.cpp.
 namespace {
 
 constexpr double alpha = 1e-4;

@@ -3,12 +3,12 @@
 #include <numbers>
 
 #include "given_rays.h"
-#include "kernel/bsdf.h"
+#include "kernel/scattering/bsdf.h"
 
 using namespace glimt;
 
 // Smooth glass: how much of the light it reflects, and what refraction does to radiance. Fresnel's equations in angles,
-// the critical angle and Snell's law of directions are in unit/bsdf_test.cpp.
+// the critical angle and Snell's law of directions are in unit/kernel/bsdf_test.cpp.
 namespace {
 
 constexpr double alpha = 1e-4;  ///< probability of a false alarm, for each statistical test

@@ -3,7 +3,7 @@
 
 #include "film/statistics.h"
 #include "same_picture.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 #include "scene_parts.h"
 #include "stability/samples.h"
 

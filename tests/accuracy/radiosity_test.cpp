@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "given_rays.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 using namespace glimt;
 

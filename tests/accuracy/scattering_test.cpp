@@ -4,9 +4,9 @@
 
 #include "accuracy/diffuse_models.h"
 #include "given_rays.h"
-#include "kernel/bsdf.h"
+#include "kernel/scattering/bsdf.h"
 #include "pictures.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 using namespace glimt;
 

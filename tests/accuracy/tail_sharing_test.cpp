@@ -4,7 +4,7 @@
 
 #include "random_scene.h"
 #include "same_picture.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 #include "scene_parts.h"
 
 using namespace glimt;

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "kernel/path.h"
+#include "kernel/transport/path.h"
 
 /// Lanes that count what is done with them. The kernel instantiated for Counted<V> computes what it computes for V, bit
 /// for bit, so the counts are those of the real kernel: with V = float what the paths need, with V = NativeLanes what

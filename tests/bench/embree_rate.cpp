@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "embree_tree.h"
-#include "kernel/intersect.h"
+#include "kernel/geometry/intersect.h"
 #include "render/render.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scene/compiled_scene.h"
+#include "compile/compiled_scene.h"
 
 /// Embree's tree of a scene, and rays to measure it with.
 namespace glimt {

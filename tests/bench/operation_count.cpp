@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "counted_lanes.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "film/statistics.h"
 #include "render/render.h"
 #include "render/session.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 /// How fast the core is, and how soon an edit shows. Wall-clock time, for the machine it runs on; nothing here fails on
 /// time.

@@ -3,7 +3,7 @@
 
 #include "pictures.h"
 #include "samples.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 using namespace glimt;
 

@@ -2,8 +2,8 @@
 // by solid angle it is worth omega cos, at most 2 pi.
 #include <gtest/gtest.h>
 
+#include "compile/compiled_scene.h"
 #include "samples.h"
-#include "scene/compiled_scene.h"
 
 using namespace glimt;
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "pictures.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 #include "scene_parts.h"
 
 using namespace glimt;

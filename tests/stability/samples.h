@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernel/kernels.h"
+#include "kernel/entry/kernels.h"
 #include "scene_parts.h"
 #include "statistics_helpers.h"
 

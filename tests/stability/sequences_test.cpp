@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "kernel/random.h"
+#include "kernel/transport/random.h"
 #include "statistics_helpers.h"
 
 using namespace glimt;

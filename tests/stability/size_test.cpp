@@ -4,7 +4,7 @@
 #include "film/statistics.h"
 #include "pictures.h"
 #include "random_scene.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 using namespace glimt;
 

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "scene/compiled_scene.h"
-#include "scene/scene_file.h"
+#include "compile/compiled_scene.h"
+#include "scene/file/scene_file.h"
 #include "scene_parts.h"
 
 using namespace glimt;

@@ -1,0 +1,43 @@
+#include "viewer/chart_view/chart_export.h"
+
+#include "chart/runs.h"
+
+namespace glimt {
+
+std::string curves_csv(const std::vector<Curve>& curves) {
+  std::vector<Variant> variants;
+  std::vector<Measurement> measurements;
+  for (const Curve& curve : curves) {
+    for (const RunPoint& p : curve.points)
+      measurements.push_back({variants.size(), curve.scene->render.seed, p.samples, p.seconds, p.estimate, p.error});
+    variants.push_back({curve.label, curve.label, {}});
+  }
+  return measurements_csv(variants, measurements);
+}
+
+std::string curves_svg(const std::vector<Curve>& curves, Across axis, const std::string& title) {
+  const auto point = [&](const RunPoint& p, double error) { return ChartPoint{across(p, axis), error, error, error}; };
+  Chart chart;
+  chart.title = title;
+  bool compared = false;
+  for (const Curve& curve : curves) {
+    if (!curve.shown) continue;
+    ChartCurve drawn{curve.label, {}, {}};
+    const bool has_reference = error_kind(curve) == ErrorKind::reference;
+    compared |= has_reference;
+    for (const RunPoint& p : curve.points) {
+      if (p.error) drawn.points.push_back(point(p, p.error->relmse));
+      (has_reference ? drawn.thin : drawn.points).push_back(point(p, p.estimate));
+    }
+    chart.curves.push_back(std::move(drawn));
+  }
+  chart.x.label = axis == Across::seconds ? "rendering time, seconds" : "samples per pixel";
+  chart.y.label = compared ? "error: relmse" : "error: relmse, estimated from two halves";
+  chart.guide = "relmse falls as 1/time, its root as time^(−1/2)";
+  if (compared)
+    chart.notes.emplace_back(
+        "Against the reference; thin, and alone where there is none: as estimated from two halves.");
+  return svg_chart(chart);
+}
+
+}  // namespace glimt

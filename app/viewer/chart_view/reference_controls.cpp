@@ -1,0 +1,58 @@
+#include <cmath>
+#include <string>
+
+#include "viewer/chart_view/chart_panel.h"
+#include "viewer/widgets/widgets.h"
+
+namespace glimt {
+namespace {
+
+constexpr double least_error = 1e-7, most_error = 0.1;
+
+std::string error_text(const Frame& frame) {
+  return std::isfinite(frame.relmse_estimate) ? "relMSE " + short_number(frame.relmse_estimate) : "error unknown";
+}
+
+std::string what_it_is(const ChartState& chart) {
+  if (chart.making)
+    return "being made: " + short_number(chart.making->relmse_estimate) + " of " + short_number(chart.target);
+  if (!chart.reference) return "none: errors are estimates";
+  if (!chart.reference_fits) return chart.reference->name + ": of another scene or size";
+  return chart.reference->name + ", " + error_text(*chart.reference->frame);
+}
+
+}  // namespace
+
+void draw_reference_controls(const ViewerState& state, Edits& edits, Requests& requests) {
+  const ChartState& chart = state.chart;
+  begin_row("Reference", "What errors are measured against. It must be of this scene and size; settings may differ.");
+  ImGui::TextUnformatted(fit_text(what_it_is(chart), ImGui::GetContentRegionAvail().x).c_str());
+  note_widget("reference.is");
+
+  begin_row("Made to error",
+            "Where rendering of a reference stops, in its own estimated relMSE. A tenth of the errors to be measured "
+            "does.\nDrag, or Ctrl+click to type a number.");
+  double target = chart.target;
+  ImGui::PushID("target");
+  if (logarithmic_slider(target, least_error, most_error, " relMSE")) edits.chart.target = target;
+  note_widget("reference.target");
+  ImGui::PopID();
+
+  ButtonRow row(3);
+  if (chart.making) {
+    edits.chart.use_now = row.button("Use as it is", "reference.use", "Stop, and measure against what there is");
+    edits.chart.stop_making = row.button("Stop", "reference.stop", "Stop, and throw it away");
+    return;
+  }
+  edits.chart.make_reference =
+      row.button("Make", "reference.make",
+                 "Render this scene on with the best method, all its light and a seed of its own, until its error is "
+                 "small enough. The picture pauses meanwhile, so that times stay true; edit as you like.",
+                 !chart.measuring);
+  requests.reference = row.button("Open\u2026", "reference.open",
+                                  "An EXR or PFM of this scene and size. It can also be dropped onto the chart");
+  edits.chart.drop_reference =
+      row.button("Drop", "reference.drop", "Estimate errors again", chart.reference != nullptr);
+}
+
+}  // namespace glimt

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viewer/state/state.h"
+#include "viewer/widgets/layout.h"
+
+namespace glimt {
+
+/// The sheet over the picture on which a file is chosen.
+class FilesPanel {
+ public:
+  enum class Purpose { none, open, save, reference };
+
+  void show(Purpose purpose, const ViewerState& state);
+  void close() { purpose_ = Purpose::none; }
+  bool is_open() const { return purpose_ != Purpose::none; }
+  void draw(const Rect& area, Edits& edits);
+
+ private:
+  struct Entry {
+    std::string name;
+    bool is_folder = false;
+  };
+  void look_into(const std::filesystem::path& folder);
+  void draw_entries(Edits& edits);
+  void draw_name(Edits& edits);
+  void choose(Edits& edits);
+
+  Purpose purpose_ = Purpose::none;
+  std::filesystem::path folder_;
+  std::vector<Entry> entries_;
+  std::string name_;  ///< of the file to save
+};
+
+}  // namespace glimt

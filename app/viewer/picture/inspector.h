@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/state/compare.h"
+#include "viewer/state/state.h"
+#include "viewer/widgets/layout.h"
+
+namespace glimt {
+
+/// Tells a pixel in numbers: the one under the mouse, else the one that was marked.
+class Inspector {
+ public:
+  void mark(const std::optional<Pixel>& pixel) { marked_ = pixel; }
+  void draw(const ViewerState& state, const Rect& area, const Placement& picture) const;
+
+ private:
+  std::optional<Pixel> marked_;
+};
+
+/// Value, standard error, samples, and what B has there: a label and a value for each line.
+std::vector<std::array<std::string, 2>> pixel_lines(const ViewerState& state, const Pixel& pixel);
+
+}  // namespace glimt

@@ -1,0 +1,238 @@
+#include "viewer/state/controller.h"
+
+#include <exception>
+#include <iterator>
+#include <regex>
+#include <stdexcept>
+#include <utility>
+
+#include "film/file_bytes.h"
+#include "film/image_file.h"
+#include "scene/file/scene_file.h"
+#include "viewer/chart_view/chart_export.h"
+
+namespace glimt {
+namespace fs = std::filesystem;
+namespace {
+
+/// Edits of a paused scene that are remembered for its next frame to name; the worker takes up the newest within a few.
+constexpr std::size_t max_posted = 64;
+
+bool is_picture(const fs::path& file) { return file.extension() == ".png" || file.extension() == ".exr"; }
+
+/// Files' name without ending, and without the number of a snapshot.
+std::string stem_of(const fs::path& file) {
+  static const std::regex number("-[0-9]{3,}$");
+  return is_picture(file) ? std::regex_replace(file.stem().string(), number, "") : file.stem().string();
+}
+
+}  // namespace
+
+Controller::Controller(Scene scene, fs::path file, const std::function<void()>& wake, Execution execution)
+    : snapshots_(wake), watch_(wake), session_(execution, wake), charting_(state_.chart, wake, execution) {
+  state_.opened_camera = scene.camera;
+  show(std::make_shared<const Scene>(std::move(scene)));
+  set_file(std::move(file));
+}
+
+void Controller::recall(const Display& display, const ChartView& chart, fs::path folder, bool show_hint,
+                        const std::string& note) {
+  state_.display = display;
+  state_.chart.view = chart;
+  if (!folder.empty()) state_.folder = std::move(folder);
+  state_.hint = show_hint;
+  if (!note.empty()) state_.message = {note, true};
+}
+
+bool Controller::poll() {
+  bool news = false;
+  // More samples of a scene that is edited meanwhile are not worth showing: the answer to the edit is on its way.
+  const auto outdated = [&](const Frame& frame) {
+    return state_.frame && frame.version == state_.frame->version && frame.version < state_.version;
+  };
+  if (auto frame = session_.frame(); frame != state_.frame && !(frame && outdated(*frame))) {
+    state_.frame = std::move(frame);
+    if (state_.frame) posted_.erase(posted_.begin(), shown());
+    if (state_.frame && shown()->second == now_) charting_.add(state_.frame);
+    news = true;
+  }
+  std::string error;
+  news |= charting_.poll(error);
+  if (!error.empty()) state_.message = {error, true};
+  leave_machine_to_chart();
+  take_wanted_snapshots();
+  if (auto message = snapshots_.take_message()) {
+    state_.message = std::move(*message);
+    news = true;
+  }
+  if (watch_.changed()) {
+    reload();
+    news = true;
+  }
+  return news;
+}
+
+void Controller::apply(const Edits& edits) {
+  if (edits.display) state_.display = *edits.display;
+  if (edits.folder) state_.folder = *edits.folder;
+  if (edits.select) state_.selected = *edits.select;
+  if (edits.dismiss_hint || edits.scene || edits.select) state_.hint = false;
+  if (edits.scene) {
+    try {
+      edit(*edits.scene, edits.gesture);
+    } catch (const std::exception& error) {
+      state_.message = {error.what(), true};
+    }
+  }
+  if (edits.undo) show(history_.undo(now()));
+  if (edits.redo) show(history_.redo(now()));
+  if (edits.open) open(*edits.open);
+  if (edits.save) save(*edits.save);
+  if (edits.toggle_pause) session_.set_paused(!session_.paused());
+  if (edits.restart) session_.restart();
+  if (edits.snapshot) want_snapshot(false);
+  if (edits.snapshot_exr) want_snapshot(true);
+  take_wanted_snapshots();
+  state_.can_undo = history_.can_undo();
+  state_.can_redo = history_.can_redo();
+  if (edits.compare) {
+    if (edits.compare->held.frame != state_.compare.held.frame)
+      state_.message = {"Held to compare with: " + edits.compare->held.label + ". X compares, B flips"};
+    state_.compare = *edits.compare;
+  }
+  if (edits.inspect) state_.inspect = *edits.inspect;
+  charting_.apply(edits.chart);
+  export_chart(edits.chart);
+  leave_machine_to_chart();
+}
+
+void Controller::leave_machine_to_chart() {
+  if (charting_.busy() && !resume_ && !session_.paused()) {
+    // Times are true only while nothing else is rendered.
+    resume_ = true;
+    session_.set_paused(true);
+  } else if (!charting_.busy() && resume_) {
+    resume_ = false;
+    session_.set_paused(false);
+  }
+  state_.paused = session_.paused();
+}
+
+void Controller::export_chart(const ChartEdits& edits) {
+  const auto& curves = state_.chart.curves.all();
+  if (edits.export_csv) snapshots_.write(curves_csv(curves), stem_ + "-chart", "csv");
+  if (edits.export_svg)
+    snapshots_.write(curves_svg(curves, state_.chart.view.across, state_.scene.name), stem_ + "-chart", "svg");
+}
+
+void Controller::edit(const Scene& scene, std::uint64_t gesture) {
+  if (scene == *now_) return;
+  Document before = now();
+  show(std::make_shared<const Scene>(scene), gesture);
+  history_.edited(std::move(before), gesture);
+}
+
+Document Controller::now() const { return {now_, state_.file}; }
+
+void Controller::show(const std::optional<Document>& document) {
+  if (!document) return;
+  show(document->scene);
+  if (document->file != state_.file) set_file(document->file);
+}
+
+void Controller::show(std::shared_ptr<const Scene> scene, std::uint64_t gesture) {
+  state_.version = session_.post(*scene);
+  state_.compiled = session_.compiled();
+  state_.scene = *scene;
+  if (state_.selected && !contains(state_.scene, *state_.selected)) state_.selected.reset();
+  if (state_.message.error) state_.message = {};
+  posted_[state_.version] = scene;
+  now_ = std::move(scene);
+  charting_.show(now_, gesture);
+  if (posted_.size() > max_posted) posted_.erase(std::next(posted_.begin()));
+}
+
+void Controller::set_file(fs::path file) {
+  stem_ = stem_of(file);
+  if (file.has_parent_path()) state_.folder = file.parent_path();
+  if (is_picture(file)) file.clear();
+  watch_.watch(file);
+  state_.file = std::move(file);
+}
+
+void Controller::open(const fs::path& file) {
+  try {
+    if (is_picture(file))
+      open_picture(file);
+    else
+      open_scene(file);
+    state_.opened_camera = state_.scene.camera;
+    session_.set_paused(false);
+  } catch (const std::exception& error) {
+    state_.message = {error.what(), true};
+  }
+}
+
+void Controller::open_scene(const fs::path& file) {
+  edit(read_scene(file), 0);
+  set_file(file);
+  state_.message = {"Opened " + file.filename().string()};
+}
+
+void Controller::open_picture(const fs::path& file) {
+  const Metadata metadata = read_metadata(file);
+  const auto scene = metadata.find("scene");
+  if (scene == metadata.end())
+    throw std::runtime_error(file.string() + ": holds no scene; allowed are pictures that glimt has written");
+  edit(parse_scene(scene->second, file.string()), 0);
+  set_file(file);
+  if (metadata.contains("exposure")) state_.display = read_display(metadata);
+  state_.message = {"Opened the scene in " + file.filename().string()};
+}
+
+void Controller::save(const fs::path& file) {
+  try {
+    replace_file(file, write_scene(state_.scene));
+    set_file(file);
+    state_.message = {"Saved " + file.filename().string()};
+  } catch (const std::exception& error) {
+    state_.message = {error.what(), true};
+  }
+}
+
+void Controller::reload() {
+  try {
+    edit(read_scene(state_.file), 0);
+    state_.opened_camera = state_.scene.camera;
+    state_.message = {"Read " + state_.file.filename().string() + " again, which has changed"};
+  } catch (const std::exception& error) {
+    state_.message = {error.what(), true};
+  }
+  state_.can_undo = history_.can_undo();
+  state_.can_redo = history_.can_redo();
+}
+
+Controller::Posted::const_iterator Controller::shown() const {
+  // A restart's version is not posted; its scene is the one before.
+  const auto after = posted_.upper_bound(state_.frame->version);
+  return after == posted_.begin() ? after : std::prev(after);
+}
+
+void Controller::want_snapshot(bool radiance) {
+  wanted_.push_back({.frame = {}, .scene = {}, .display = state_.display, .radiance = radiance});
+}
+
+void Controller::take_wanted_snapshots() {
+  std::erase_if(wanted_, [&](Snapshot& snapshot) {
+    snapshot.frame = state_.frame;
+    if (!is_complete(snapshot)) return false;
+    snapshot.scene = shown()->second;
+    snapshots_.write(std::move(snapshot), stem_);
+    return true;
+  });
+  bool error_wanted = state_.display.view == View::error || state_.inspect;
+  for (const Snapshot& snapshot : wanted_) error_wanted |= snapshot.radiance || snapshot.display.view == View::error;
+  session_.set_error_wanted(error_wanted);
+}
+
+}  // namespace glimt

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/session.h"
+#include "viewer/state/file_watch.h"
+#include "viewer/state/history.h"
+#include "viewer/state/snapshot.h"
+#include "viewer/state/state.h"
+
+namespace glimt {
+
+/// Owns what the window shows and carries out what its user asks for. Knows neither OpenGL nor ImGui; no function waits
+/// for rendering.
+class Controller {
+ public:
+  /// Starts to render the scene, which is from `file`. `wake` is called on other threads when poll() has news. Throws
+  /// SceneError.
+  Controller(Scene scene, std::filesystem::path file, const std::function<void()>& wake, Execution execution = {});
+
+  const ViewerState& state() const { return state_; }
+  /// What the window remembers from its last start. To be called before the first edits.
+  void recall(const Display& display, const ChartView& chart, std::filesystem::path folder, bool show_hint,
+              const std::string& note);
+  /// Takes in finished frames and snapshots, and a scene file that has changed on disk; true where there was one.
+  bool poll();
+  /// Carries out edits. One that is refused, and a file that cannot be read, change nothing and say why in the message.
+  void apply(const Edits& edits);
+
+ private:
+  using Posted = std::map<std::uint64_t, std::shared_ptr<const Scene>>;  ///< by version
+
+  /// The scene that the frame shows.
+  Posted::const_iterator shown() const;
+  Document now() const;
+  void show(std::shared_ptr<const Scene> scene, std::uint64_t gesture = 0);
+  void show(const std::optional<Document>& document);
+  void edit(const Scene& scene, std::uint64_t gesture);
+  void set_file(std::filesystem::path file);
+  void open(const std::filesystem::path& file);
+  void open_scene(const std::filesystem::path& file);
+  void open_picture(const std::filesystem::path& file);
+  void save(const std::filesystem::path& file);
+  void reload();
+  void want_snapshot(bool radiance);
+  void export_chart(const ChartEdits& edits);
+  void leave_machine_to_chart();
+  void take_wanted_snapshots();
+
+  ViewerState state_;
+  std::string stem_;                  ///< of snapshots
+  std::shared_ptr<const Scene> now_;  ///< the same as state_.scene
+  History history_;
+  Posted posted_;                 ///< back to the one the frame shows
+  std::vector<Snapshot> wanted_;  ///< of the next frame that holds what they are to show
+  SnapshotWriter snapshots_;
+  FileWatch watch_;
+  Session session_;
+  Charting charting_;
+  bool resume_ = false;  ///< once the chart needs the machine no more
+};
+
+}  // namespace glimt

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "viewer/state/state.h"
+#include "viewer/widgets/widgets.h"
+
+namespace glimt {
+
+/// What tests and measurements can ask a window to tell, see viewer.h.
+class Logs {
+ public:
+  Logs();
+  /// To be called when a picture of the window is on the screen.
+  void picture(const ViewerState& state);
+  /// To be called when the controls have been laid out.
+  void laid_out(const WidgetRects& widgets);
+
+ private:
+  std::ofstream frames_;
+  std::string widget_file_;
+  std::string drawn_widgets_, told_widgets_;  ///< in the last picture, and in the file
+};
+
+}  // namespace glimt

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "film/display.h"
+#include "render/session.h"
+#include "scene/pick.h"
+#include "scene/scene.h"
+#include "viewer/state/charting.h"
+#include "viewer/state/compare.h"
+
+namespace glimt {
+
+/// One line for the person at the window.
+struct Message {
+  std::string text;
+  bool error = false;
+};
+
+/// All that the panels show. They read it; the controller alone changes it.
+struct ViewerState {
+  Scene scene;                                    ///< as edited; the frame may still show the one before
+  std::uint64_t version = 0;                      ///< of the scene; frames of this or a later one show it
+  std::shared_ptr<const CompiledScene> compiled;  ///< of the scene
+  Camera opened_camera;                           ///< as it was in the file, to come back to
+  std::filesystem::path file;                     ///< that the scene is from; empty for a picture's scene
+  std::filesystem::path folder;                   ///< last looked into for files
+  std::optional<ObjectId> selected;               ///< always one of the scene
+  Display display;
+  bool paused = false, can_undo = false, can_redo = false;
+  bool hint = false;                   ///< the line for somebody's first start is shown
+  std::shared_ptr<const Frame> frame;  ///< the newest; null before the first
+  Message message;
+  ChartState chart;
+  Compare compare;
+  bool inspect = false;  ///< the pixel under the mouse is told in numbers
+};
+
+/// What a person asked for while one picture of the window was drawn.
+struct Edits {
+  std::optional<Scene> scene;
+  std::uint64_t gesture =
+      0;  ///< edits of the scene that follow each other in one gesture, as in a drag, are undone as one
+  std::optional<Display> display;
+  std::optional<std::optional<ObjectId>> select;  ///< an object, or none
+  std::optional<std::filesystem::path> open;      ///< a scene file, or a picture that glimt has written
+  std::optional<std::filesystem::path> save;      ///< a scene file to write, over one that is there
+  std::optional<std::filesystem::path> folder;
+  bool toggle_pause = false;
+  bool restart = false;
+  bool undo = false, redo = false;
+  bool snapshot = false, snapshot_exr = false;
+  bool dismiss_hint = false;
+  ChartEdits chart;
+  std::optional<Compare> compare;
+  std::optional<bool> inspect;
+  bool quit = false;
+
+  /// The scene to write an edit into.
+  Scene& edit(const ViewerState& state) { return scene ? *scene : scene.emplace(state.scene); }
+};
+
+}  // namespace glimt

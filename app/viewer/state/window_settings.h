@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "film/display.h"
+#include "viewer/state/charting.h"
+
+namespace glimt {
+
+/// What the window remembers from one start to the next.
+struct WindowSettings {
+  int width = 1312, height = 828;  ///< in window coordinates; leaves room for 400 x 400 pixels exactly doubled
+  Display display;
+  std::filesystem::path folder;  ///< last looked into for files; empty: the current one
+  bool hint_seen = false;        ///< the line for a first start was read
+  ChartView chart;
+};
+
+/// glimt/window.toml in the user's configuration directory ($XDG_CONFIG_HOME, else ~/.config); empty where there is
+/// none.
+std::filesystem::path window_settings_file();
+
+/// Reads the file; one that is missing gives the defaults. One that is damaged does too, and `note` says so.
+WindowSettings read_window_settings(const std::filesystem::path& file, std::string& note);
+
+/// Throws ImageFileError (film/image_file.h) where the file cannot be written.
+void write_window_settings(const std::filesystem::path& file, const WindowSettings& settings);
+
+}  // namespace glimt

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "compile/lowering.h"
+
+namespace glimt {
+
+using glm::dvec3;
+
+void add_flat_lamp(Lowering& l, const std::vector<dvec3>& v, const dvec3& normal, const Material& material,
+                   int first_surface, int last_surface) {
+  if (material.type != MaterialType::light) return;
+  const bool by_solid_angle = l.scene.render.light_sampling == LightSampling::solid_angle;
+  auto add = [&](LampShape shape, const dvec3& e1, const dvec3& e2) {
+    l.lamps.push_back({shape, v[0], e1, e2, normal, material.radiance, first_surface, last_surface});
+  };
+  if (is_parallelogram(v)) {
+    const dvec3 e1 = v[1] - v[0], e2 = v[3] - v[0];
+    const bool rectangle = std::abs(dot(e1, e2)) <= 1e-9 * length(e1) * length(e2);
+    add(by_solid_angle && rectangle ? LampShape::rectangle : LampShape::parallelogram, e1, e2);
+  } else {
+    for (std::size_t i = 2; i < v.size(); ++i) add(LampShape::triangle, v[i - 1] - v[0], v[i] - v[0]);
+  }
+}
+
+double area_of(const LampPiece& p) {
+  switch (p.shape) {
+    case LampShape::parallelogram:
+    case LampShape::rectangle:
+      return length(cross(p.e1, p.e2));
+    case LampShape::triangle:
+      return length(cross(p.e1, p.e2)) / 2;
+    case LampShape::sphere:
+    case LampShape::sphere_by_area:
+      return 4 * std::numbers::pi * p.e1.x * p.e1.x;
+  }
+  return 0;
+}
+
+std::vector<AliasEntry> alias_table(const std::vector<double>& probability) {
+  const std::size_t n = probability.size();
+  std::vector<AliasEntry> table(n, {1.0, 0});
+  std::vector<double> scaled(n);
+  std::vector<std::size_t> small, large;
+  for (std::size_t i = 0; i < n; ++i) {
+    scaled[i] = probability[i] * static_cast<double>(n);
+    table[i].other = i;
+    (scaled[i] < 1 ? small : large).push_back(i);
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::size_t low = small.back(), high = large.back();
+    small.pop_back();
+    table[low] = {scaled[low], high};
+    scaled[high] -= 1 - scaled[low];
+    if (scaled[high] < 1) {
+      large.pop_back();
+      small.push_back(high);
+    }
+  }
+  return table;
+}
+
+void lower_lamps(Lowering& l) {
+  std::erase_if(l.lamps, [](const LampPiece& p) { return p.radiance == dvec3{0} || area_of(p) == 0; });
+  std::vector<double> probability;
+  for (const LampPiece& p : l.lamps) probability.push_back(area_of(p) * (p.radiance.r + p.radiance.g + p.radiance.b));
+  const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
+  for (double& p : probability) p /= total;
+  const std::vector<AliasEntry> alias = alias_table(probability);
+
+  Table<LampColumn> table(static_cast<int>(l.lamps.size()));
+  for (std::size_t i = 0; i < l.lamps.size(); ++i) {
+    const LampPiece& p = l.lamps[i];
+    const TableRow<LampColumn> row{table, i};
+    row.set3(LampColumn::p_x, p.p);
+    row.set3(LampColumn::e1_x, p.e1);
+    row.set3(LampColumn::e2_x, p.e2);
+    row.set3(LampColumn::normal_x, p.normal);
+    row.set_int(LampColumn::shape, static_cast<int>(p.shape));
+    row.set_int(LampColumn::first_surface, p.first_surface);
+    row.set_int(LampColumn::last_surface, p.last_surface);
+    const bool by_area = p.shape != LampShape::sphere && p.shape != LampShape::rectangle;
+    const double inverse_choice = (by_area ? area_of(p) : 1) / probability[i];
+    row.set3(LampColumn::weight_r, p.radiance * inverse_choice);
+    row.set(LampColumn::inverse_choice, inverse_choice);
+    row.set(LampColumn::length_1, length(p.e1));
+    row.set(LampColumn::length_2, length(p.e2));
+    row.set(LampColumn::alias_threshold, alias[i].threshold);
+    row.set_int(LampColumn::alias_other, static_cast<int>(alias[i].other));
+    l.out.has_lamp_shape[static_cast<std::size_t>(p.shape)] = true;
+  }
+  for (int surface = 0; surface < l.out.surfaces.rows(); ++surface) {
+    const auto piece = std::ranges::find_if(
+        l.lamps, [&](const LampPiece& p) { return p.first_surface <= surface && surface <= p.last_surface; });
+    const auto row = piece == l.lamps.end() ? -1 : static_cast<int>(piece - l.lamps.begin());
+    l.out.surfaces[Column::lamp][surface] = std::bit_cast<float>(row);
+  }
+  l.out.lamps = std::move(table);
+}
+
+}  // namespace glimt

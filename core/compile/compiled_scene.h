@@ -1,0 +1,230 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+/// What the kernel reads: flat arrays of floats in compiled space (world space moved so that the scene is centred on
+/// the origin, which keeps the precision of a scene far away), with everything left out that the scene does not need.
+namespace glimt {
+
+struct Rgb {
+  float r = 0, g = 0, b = 0;
+};
+
+/// Bits of Surface::kind.
+enum SurfaceKind : std::int32_t {
+  kind_diffuse = 1,  ///< Lambertian, or Oren-Nayar with its factors
+  kind_mirror = 2,
+  kind_glass = 4,
+  kind_light = 8,  ///< emits on its front, reflects nothing
+};
+
+/// Columns of the surface table. A surface is what a ray can hit: a face, a triangle or a sphere.
+enum class Column {
+  normal_x,
+  normal_y,
+  normal_z,        ///< outward or front unit normal of a plane; the centre of a sphere
+  inverse_radius,  ///< of a sphere; 0 for a plane
+  kind,            ///< bits of SurfaceKind as an int32
+  reflectance_r,
+  reflectance_g,
+  reflectance_b,
+  emission_r,
+  emission_g,
+  emission_b,  ///< radiance of a light, or glow
+  oren_nayar_a,
+  oren_nayar_b,       ///< A and B of Oren-Nayar; 1 and 0 for Lambertian
+  oren_nayar_report,  ///< 1 where the report's formula is asked for
+  eon,                ///< 1 for EON; its A and roughness are then in the places of A and B
+  eon_multiple_r,
+  eon_multiple_g,
+  eon_multiple_b,  ///< weight of its light reflected many times, over the reflectance
+  eta,             ///< glass: index behind the surface over index in front of it
+  schlick,         ///< 1 where Schlick's Fresnel is asked for
+  lamp,            ///< first row of the lamp table that is a piece of this light, as int32; -1: none is
+  chain,           ///< of a sphere that connections pass over, as int32: 1 by reflection, 2 by refraction too; else 0
+  target,          ///< number of the mirror or glass that light paths may be aimed at, as int32; -1: none
+  count
+};
+
+/// Columns of the lamp table: parallelograms, rectangles and triangles p + a e1 + b e2, and spheres.
+enum class LampColumn {
+  p_x,
+  p_y,
+  p_z,  ///< corner, or centre of a sphere
+  e1_x,
+  e1_y,
+  e1_z,
+  e2_x,
+  e2_y,
+  e2_z,  ///< edges; e1_x is the radius of a sphere
+  normal_x,
+  normal_y,
+  normal_z,  ///< of the emitting side
+  shape,     ///< LampShape as an int32
+  first_surface,
+  last_surface,  ///< surfaces that cannot hide a point of the lamp, as int32: its own flat or convex shape
+  weight_r,
+  weight_g,
+  weight_b,        ///< radiance * inverse_choice
+  inverse_choice,  ///< area / probability of choice; only 1 / probability where points are chosen by solid angle
+  length_1,
+  length_2,         ///< of the edges of a rectangle
+  alias_threshold,  ///< alias table (Walker 1977; Vose 1991): keep the entry below it, else take
+  alias_other,      ///< this one, as int32
+  count
+};
+
+/// What is sampled, and how: `rectangle` and `sphere` by solid angle, the others by area.
+enum class LampShape { parallelogram, triangle, sphere, rectangle, sphere_by_area };
+inline constexpr std::size_t lamp_shapes = 5;
+
+/// Columns of the table that light paths begin from: a piece of a lamp and a mirror or glass that it is aimed at, by
+/// way of the sphere around it.
+enum class AimColumn {
+  lamp,  ///< row of the lamp table, as int32
+  center_x,
+  center_y,
+  center_z,
+  radius,
+  target,  ///< what Column::target of the first surface on the way must be, as int32
+  weight_r,
+  weight_g,
+  weight_b,         ///< radiance * area of the lamp / probability of choice / light paths of a pass
+  alias_threshold,  ///< as in the lamp table
+  alias_other,
+  count
+};
+
+/// Columns of floats, each 64-byte aligned and padded to a multiple of 32 with zeros.
+template <class ColumnType>
+class Table {
+ public:
+  Table() : Table(0) {}
+  explicit Table(int rows)
+      : rows_(rows), stride_((rows + 31) / 32 * 32), data_(allocate(static_cast<std::size_t>(stride_) * columns)) {}
+
+  int rows() const { return rows_; }
+  /// Floats from one column to the next.
+  int stride() const { return stride_; }
+  float* operator[](ColumnType c) { return data_.get() + static_cast<std::ptrdiff_t>(c) * stride_; }
+  const float* operator[](ColumnType c) const { return data_.get() + static_cast<std::ptrdiff_t>(c) * stride_; }
+
+ private:
+  static constexpr std::size_t columns = static_cast<std::size_t>(ColumnType::count);
+  struct Free {
+    void operator()(float* p) const { std::free(p); }
+  };
+  static std::unique_ptr<float[], Free> allocate(std::size_t floats) {
+    std::unique_ptr<float[], Free> p(floats ? static_cast<float*>(std::aligned_alloc(64, floats * sizeof(float)))
+                                            : nullptr);
+    for (std::size_t i = 0; i < floats; ++i) p[i] = 0;
+    return p;
+  }
+  int rows_;
+  int stride_;
+  std::unique_ptr<float[], Free> data_;
+};
+
+/// A pair of parallel faces of the closed convex room around the camera: |n.x - middle| <= half inside.
+struct Slab {
+  float nx, ny, nz;
+  float middle, half;  ///< metres
+  std::int32_t surface_lo, surface_hi;
+};
+
+/// n.x <= d inside a convex solid.
+struct SolidPlane {
+  float nx, ny, nz, d;
+  std::int32_t surface;
+};
+
+/// A closed convex mesh as planes [first, last). Opaque ones are hit from outside only, which is where paths are.
+struct Solid {
+  std::int32_t first, last;
+  std::int32_t first_surface, last_surface;
+  bool glass;
+};
+
+struct SphereShape {
+  float cx, cy, cz, r2;  ///< centre, square of the radius
+  std::int32_t surface;
+};
+
+/// A flat convex piece: n.x = d, and every bound holds.
+struct PolygonShape {
+  float nx, ny, nz, d;
+  std::int32_t first_bound, last_bound;
+  std::int32_t surface;
+};
+
+/// lo <= b.x <= hi. A parallelogram has two, other polygons one (hi infinite) an edge.
+struct PolygonBound {
+  float bx, by, bz, lo, hi;
+};
+
+struct TriangleShape {
+  std::array<float, 3> v, e1, e2;
+  std::int32_t surface;
+};
+
+/// Film position (x, y) in pixels from the upper left, both continuous, sends a ray along corner + x * right + y *
+/// down.
+struct PinholeCamera {
+  std::array<float, 3> eye, corner, right, down;
+  std::array<float, 3> forward;  ///< unit, to the middle of the image
+  float pixel_area;              ///< of a pixel on the plane at distance 1, m^2
+};
+
+/// A sphere over which diffuse surfaces are connected to lamps; see kernel/caustics/connect.h.
+struct ChainSphere {
+  std::array<float, 3> center;
+  float radius;
+  std::int32_t surface;
+  bool refracts;  ///< glass with nothing inside
+};
+
+struct CompiledScene {
+  Settings settings;
+  int width = 0, height = 0;
+  PinholeCamera camera{};
+  std::array<double, 3> origin{};  ///< compiled space's origin in world space
+  double max_radiance = 0;         ///< brightest emission, for the film's scale
+
+  Table<Column> surfaces;
+  std::vector<Slab> room;  ///< the closed convex room, or empty
+  std::vector<Solid> solids;
+  std::vector<SolidPlane> solid_planes;
+  std::vector<SphereShape> spheres;  ///< opaque, hit from outside
+  std::vector<SphereShape> shells;   ///< opaque, around the camera, hit from inside
+  std::vector<SphereShape> glass_spheres;
+  std::vector<PolygonShape> polygons;
+  std::vector<PolygonBound> polygon_bounds;
+  std::vector<TriangleShape> triangles;
+
+  Table<LampColumn> lamps;
+  int light_paths = 0;         ///< of every pass, from lamps to mirrors and glass; 0: caustics are found by chance
+  float light_path_noise = 0;  ///< see kernel/geometry/pinhole.h
+  Table<AimColumn> aims;
+  std::vector<int> lamp_edges;  ///< pixels that edges of lamps come near, in order; see kernel/lamps/lamp_edges.h
+  std::vector<ChainSphere> chain_spheres;
+  bool has_mirror = false, has_glass = false, has_oren_nayar = false, has_eon = false;
+  bool has_glow = false;          ///< reflecting surfaces with emission
+  bool room_hides_lamps = false;  ///< a lamp is partly outside the room, so shadow rays test the room too
+  std::array<bool, lamp_shapes> has_lamp_shape{};  ///< by LampShape
+
+  // For people: what the kernel will and will not do in this scene, and what they should know about it.
+  std::vector<std::string> compiled_in, left_out, warnings;
+};
+
+/// Lowers a valid scene (validate.h); throws SceneError for one that is not, naming the first problem. Objects and
+/// lamps that paths from the camera cannot reach are left out, so the result depends on where the camera is.
+CompiledScene compile(const Scene& scene);
+
+}  // namespace glimt

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <bit>
+
+#include "compile/compiled_scene.h"
+#include "compile/reach.h"
+
+/// The parts of compile(): each lowers one kind of object into `out`.
+namespace glimt {
+
+/// A row of CompiledScene::surfaces before their number is known.
+struct Surface {
+  const Material* material;
+  glm::dvec3 normal_or_center;  ///< compiled space
+  double inverse_radius = 0;
+  double eta = 1;
+};
+
+/// A piece of a lamp, in compiled space.
+struct LampPiece {
+  LampShape shape;
+  glm::dvec3 p, e1, e2, normal;  ///< sphere: centre, (radius, 0, 0)
+  glm::dvec3 radiance;
+  int first_surface, last_surface;
+};
+
+/// A ball around something, in compiled space.
+struct BoundingSphere {
+  glm::dvec3 center;
+  double radius;
+};
+
+/// A mirror or glass that light paths may be aimed at.
+struct Target {
+  BoundingSphere bounds;
+  int first_surface, last_surface;
+};
+
+/// A mirror or glass sphere that is met from outside.
+struct SpecularSphere {
+  const Sphere* sphere;
+  int surface;
+};
+
+struct Lowering {
+  const Scene& scene;
+  Reach reach;
+  glm::dvec3 origin{0};  ///< of compiled space, in world space
+  std::vector<Surface> surfaces;
+  std::vector<LampPiece> lamps;
+  std::vector<Target> targets;
+  std::vector<SpecularSphere> specular_spheres;
+  CompiledScene out;
+
+  const Material& material(const std::string& name) const {
+    return scene.materials[static_cast<std::size_t>(material_index(scene, name))];
+  }
+  /// Index of the new row.
+  int add_surface(const Surface& s) {
+    surfaces.push_back(s);
+    return static_cast<int>(surfaces.size()) - 1;
+  }
+};
+
+/// A row of a table to be filled.
+template <class ColumnType>
+struct TableRow {
+  Table<ColumnType>& table;
+  std::size_t row;
+
+  void set(ColumnType c, double value) const { table[c][row] = static_cast<float>(value); }
+  /// In this column and the two after it.
+  void set3(ColumnType first, const glm::dvec3& v) const {
+    for (int k = 0; k < 3; ++k) set(static_cast<ColumnType>(static_cast<int>(first) + k), v[k]);
+  }
+  void set_int(ColumnType c, std::int32_t value) const { table[c][row] = std::bit_cast<float>(value); }
+};
+
+std::array<float, 3> to_floats(const glm::dvec3& v);
+
+/// True for four vertices of a parallelogram, in order.
+bool is_parallelogram(const std::vector<glm::dvec3>& v);
+
+void lower_meshes(Lowering& l);
+
+/// The refractive index of the glass of that object over the index of the medium around it: 1, or that of the smallest
+/// glass solid that holds the object.
+double relative_ior(const Scene& scene, const Sphere& sphere);
+double relative_ior(const Scene& scene, const Mesh& mesh);
+
+/// Pieces of a flat lamp whose front is the side of `normal`; vertices in compiled space.
+void add_flat_lamp(Lowering& l, const std::vector<glm::dvec3>& vertices, const glm::dvec3& normal,
+                   const Material& material, int first_surface, int last_surface);
+
+/// The lamp table from the pieces gathered, each chosen with a probability in proportion to its power.
+void lower_lamps(Lowering& l);
+
+double area_of(const LampPiece& piece);
+
+struct AliasEntry {
+  double threshold;
+  std::size_t other;
+};
+/// Vose, "A linear algorithm for generating random numbers with a given distribution" (1991).
+std::vector<AliasEntry> alias_table(const std::vector<double>& probability);
+
+BoundingSphere bounding_sphere(const std::vector<glm::dvec3>& vertices);
+/// Does nothing for a material that is not specular.
+void add_target(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
+                int last_surface);
+/// The table that light paths begin from, and how many there are; after lower_lamps().
+void lower_aims(Lowering& l);
+
+/// The spheres over which diffuse surfaces are connected to lamps; after lower_lamps().
+void lower_chains(Lowering& l);
+
+/// Pixels that look at edges of lamps.
+void mark_lamp_edges(Lowering& l);
+
+/// Warnings for scenes in which the chosen estimators cannot hold.
+void warn(Lowering& l);
+
+}  // namespace glimt

@@ -1,0 +1,139 @@
+#include "compile/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "scene/file/text.h"
+#include "scene/geometry/mesh_measures.h"
+#include "scene/validate/validate.h"
+
+namespace glimt {
+
+using glm::dvec3;
+
+int material_index(const Scene& scene, const std::string& name) {
+  const auto it =
+      std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& m) { return m.name == name; });
+  return static_cast<int>(it - scene.materials.begin());
+}
+
+namespace {
+
+/// Faces that could bound a room: of polygons and of small opaque meshes.
+std::vector<Face> faces_of(const Scene& scene) {
+  std::vector<Face> faces;
+  for (const Polygon& p : scene.polygons) faces.push_back({p.vertices, material_index(scene, p.material)});
+  for (const Mesh& m : scene.meshes) {
+    const int material = material_index(scene, m.material);
+    if (m.triangles.size() <= max_room_mesh_triangles &&
+        scene.materials[static_cast<std::size_t>(material)].type != MaterialType::glass)
+      for (const auto& t : m.triangles) faces.push_back({triangle_vertices(m, t), material});
+  }
+  return faces;
+}
+
+double size_of(const Scene& scene) {
+  dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
+  auto include = [&](const dvec3& v) {
+    low = glm::min(low, v);
+    high = glm::max(high, v);
+  };
+  for (const Polygon& p : scene.polygons) std::for_each(p.vertices.begin(), p.vertices.end(), include);
+  for (const Mesh& m : scene.meshes) std::for_each(m.vertices.begin(), m.vertices.end(), include);
+  for (const Sphere& s : scene.spheres) {
+    include(s.center - s.radius);
+    include(s.center + s.radius);
+  }
+  return length(high - low);
+}
+
+enum class Place { inside, piercing, on_face, outside };
+
+/// Where vertices with a ball of that radius about each lie.
+Place place(const Reach& reach, const std::vector<dvec3>& vertices, double radius) {
+  Place result = Place::inside;
+  for (const RoomFace& face : reach.room) {
+    double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+    for (const dvec3& v : vertices) {
+      const double distance = dot(face.inside.n, v) - face.inside.d;
+      nearest = std::min(nearest, distance - radius);
+      farthest = std::max(farthest, distance + radius);
+    }
+    if (nearest >= -reach.tolerance) return farthest <= reach.tolerance ? Place::on_face : Place::outside;
+    if (farthest > reach.tolerance) result = Place::piercing;
+  }
+  return result;
+}
+
+bool bounds_room(const Reach& reach, const Polygon& polygon, int material) {
+  const dvec3 n = plane_of(polygon.vertices).n;
+  return std::any_of(reach.room.begin(), reach.room.end(), [&](const RoomFace& face) {
+    const bool in_plane = std::all_of(polygon.vertices.begin(), polygon.vertices.end(), [&](const dvec3& v) {
+      return std::abs(dot(face.inside.n, v) - face.inside.d) <= reach.tolerance;
+    });
+    return in_plane && face.material == material && face.front == (dot(n, face.inside.n) < 0);
+  });
+}
+
+}  // namespace
+
+Reach find_reach(const Scene& scene) {
+  Reach reach;
+  // Single precision keeps positions to about 2^-24 of the scene's size; four bits more are what a hit point may be
+  // off.
+  reach.tolerance = size_of(scene) * 0x1p-20;
+  const std::vector<Face> faces = faces_of(scene);
+  reach.room = find_room(faces, scene.camera.eye, reach.tolerance);
+
+  auto is_light = [&](const std::string& material) {
+    return scene.materials[static_cast<std::size_t>(material_index(scene, material))].type == MaterialType::light;
+  };
+  auto leave_out = [&](const auto& object, bool in_wall) {
+    reach.left_out.push_back(toml_string(object.name) +
+                             (in_wall ? ", in the plane of a wall" : ", outside the closed room"));
+    if (is_light(object.material))
+      reach.warnings.push_back("the lamp " + toml_string(object.name) +
+                               (in_wall ? " lies in the plane of a wall, which hides it: move it into the room"
+                                        : " is outside the closed room and lights nothing"));
+  };
+  auto keep = [&](const auto& object, const std::vector<dvec3>& vertices, double radius, auto& kept, auto&& kept_form) {
+    const Place where = place(reach, vertices, radius);
+    if (where == Place::inside || where == Place::piercing) {
+      kept.push_back(kept_form);
+      if (where == Place::piercing && is_light(object.material)) reach.lamp_pierces_room = true;
+      return;
+    }
+    leave_out(object, where == Place::on_face);
+  };
+  for (const Polygon& p : scene.polygons)
+    if (!bounds_room(reach, p, material_index(scene, p.material))) keep(p, p.vertices, 0, reach.polygons, &p);
+  for (const Mesh& m : scene.meshes) {
+    if (is_closed(m) && std::abs(winding_number(m, scene.camera.eye)) < 0.5) {
+      keep(m, m.vertices, 0, reach.meshes, m);
+      continue;
+    }
+    // Some of its triangles may be the room's own.
+    Mesh rest = m;
+    bool bounds = false, in_wall = false, pierces = false;
+    std::erase_if(rest.triangles, [&](const auto& t) {
+      const Polygon triangle{{}, {}, triangle_vertices(m, t)};
+      const Place where = place(reach, triangle.vertices, 0);
+      bounds |= bounds_room(reach, triangle, material_index(scene, m.material));
+      in_wall |= where == Place::on_face;
+      pierces |= where == Place::piercing;
+      return where == Place::on_face || where == Place::outside;
+    });
+    if (pierces && is_light(m.material)) reach.lamp_pierces_room = true;
+    if (!rest.triangles.empty()) {
+      reach.meshes.push_back(std::move(rest));
+    } else if (!bounds) {
+      leave_out(m, in_wall);
+    }
+  }
+  for (const Sphere& s : scene.spheres) keep(s, {s.center}, s.radius, reach.spheres, &s);
+  return reach;
+}
+
+}  // namespace glimt

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "scene/geometry/room.h"
+#include "scene/scene.h"
+
+namespace glimt {
+
+/// What of a scene the paths from its camera can reach.
+struct Reach {
+  double tolerance = 0;        ///< metres; surfaces nearer to each other than this coincide
+  std::vector<RoomFace> room;  ///< the closed convex room around the camera, or empty
+  std::vector<const Sphere*> spheres;
+  std::vector<const Polygon*> polygons;
+  std::vector<Mesh> meshes;                     ///< without the triangles that are part of the room
+  bool lamp_pierces_room = false;               ///< some kept lamp is partly outside, where the room must hide it
+  std::vector<std::string> left_out, warnings;  ///< for people
+};
+
+/// Finds the room and drops what is behind its faces, or coincides with them (the room wins).
+Reach find_reach(const Scene& scene);
+
+/// Meshes with this many triangles or fewer may be part of the room.
+inline constexpr std::size_t max_room_mesh_triangles = 64;
+
+/// Index into scene.materials; the scene is valid.
+int material_index(const Scene& scene, const std::string& name);
+
+}  // namespace glimt

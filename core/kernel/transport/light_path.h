@@ -1,0 +1,183 @@
+#pragma once
+
+#include <bit>
+#include <numeric>
+
+#include "kernel/geometry/pinhole.h"
+#include "kernel/lamps/emission.h"
+#include "kernel/scattering/shading.h"
+#include "kernel/transport/random.h"
+#include "kernel/transport/results.h"
+#include "kernel/transport/trace.h"
+
+/// Light paths, for caustics on what the camera sees directly: from a lamp to a mirror or glass, on through others, and
+/// from each diffuse surface after that straight to the pinhole (Arvo, "Backward ray tracing", 1986; Dutre, Lafortune
+/// and Willems, "Monte Carlo light tracing with direct computation of pixel intensities", 1993).
+namespace glimt {
+
+/// The state of one light path a lane, between two surfaces.
+template <class F>
+struct LightPathState {
+  Ray<F> ray;
+  Vec3<F> flux;    ///< that the path stands for, W
+  PathKey<F> key;  ///< its dimension 0 is the first of the next hit
+  Int<F> depth;    ///< surfaces hit before
+  Int<F> target;   ///< what the path is aimed at
+  Int<F> path;     ///< number in the pass; from the end of the block on, a lane without work
+};
+
+template <class F, Features features>
+class LightPathTracer {
+  using I = Int<F>;
+  using U = Uint<F>;
+  using M = Mask<F>;
+  using V = Vec3<F>;
+
+ public:
+  LightPathTracer(const CompiledScene& scene, const LightBlock& block, std::vector<Splat>& splats)
+      : scene_(scene), block_(block), splats_(splats), surfaces_(scene) {
+    std::iota(rank_.begin(), rank_.end(), 0);
+  }
+
+  void run() {
+    LightPathState<F> s{};
+    s.path = I(end());
+    int next = block_.first_path;
+    for (;;) {
+      const M idle = !less(s.path, I(end()));
+      const int free = std::popcount(bits(idle));
+      // Beginning a path costs about as much for one lane as for all.
+      if (next < end() && 4 * free >= lane_count<F>) {
+        begin_paths(s, idle, next);
+        next += free;
+      }
+      if (!any(less(s.path, I(end())))) return done_.flush(writer());
+      const M ended = step(s);
+      s.path = select(ended, I(end()), s.path);
+    }
+  }
+
+ private:
+  int end() const { return block_.first_path + block_.paths; }
+
+  Point2<F> pair(const LightPathState<F>& s, HitDimension dimension) const {
+    return random_pair<F>(settings().sampler, s.key, LatticePlace<F>::of(s.depth + I(2)),
+                          static_cast<std::uint32_t>(dimension));
+  }
+  F number(const LightPathState<F>& s, HitDimension dimension) const {
+    return random_number<F>(settings().sampler, s.key, LatticePlace<F>::of(s.depth + I(2)),
+                            static_cast<std::uint32_t>(dimension));
+  }
+
+  /// All passes of a half share one sequence, until its index would not fit.
+  PathKey<F> first_key_of(const I& path) const {
+    const std::uint32_t seed = static_cast<std::uint32_t>(scene_.settings.seed) + light_path_seeds;
+    if (!has_sequences(settings().sampler))
+      return first_key<F>(settings().sampler, seed, as_uint(path), U(block_.sample));
+    const auto count = static_cast<std::uint32_t>(scene_.light_paths);
+    const std::uint32_t passes = std::max(1u, longest_sequence / count);
+    const std::uint32_t pass = block_.sample / 2, half = block_.sample % 2;
+    const U index = as_uint(path) + U(pass % passes * count);
+    return first_key<F>(settings().sampler, seed, U(pass / passes), U(index + index + U(half)));
+  }
+
+  void begin_paths(LightPathState<F>& s, const M& idle, int next) const {
+    s.path = select(idle, expand<I, F>(I(0), idle, rank_.data()) + I(next), s.path);
+    s.depth = select(idle, I(-1), s.depth);
+    const PathKey<F> key = first_key_of(s.path);
+    s.key = {select(idle, key.a, s.key.a), select(idle, key.b, s.key.b), select(idle, key.index, s.key.index)};
+    const I row = choose_aim<F, features>(scene_, number(s, HitDimension::lamp));
+    const Point2<F> on_lamp = pair(s, HitDimension::lamp_u), to_target = pair(s, HitDimension::direction_u);
+    const Emission<F> emission = emit<F, features>(scene_, row, on_lamp, to_target);
+    s.ray = {select(idle, emission.origin, s.ray.origin), select(idle, emission.direction, s.ray.direction),
+             select(idle, emission.surface, s.ray.from)};
+    s.flux = select(idle, emission.flux, s.flux);
+    s.target = select(idle, emission.target, s.target);
+    s.key.a = select(idle, skip_dimensions<F>(s.key, hit_block).a, s.key.a);
+    s.depth = select(idle, I(0), s.depth);
+  }
+
+  /// One surface for every lane; returns the lanes whose paths end there.
+  M step(LightPathState<F>& s) {
+    const Hit<F> hit = closest_hit<F, features>(scene_, s.ray);
+    const Shading<F> at = surfaces_.shade(s.ray, hit);
+    const M aimed = equal(as_int(surfaces_.value(Column::target, at)), s.target) | less(I(0), s.depth);
+    const M met = hit.t < F(std::numeric_limits<float>::infinity());
+    M ended = equal(at.kind, I(kind_light)) | !(met & aimed);
+    // The lamp is a surface too.
+    if (settings().max_depth > 0) ended = ended | !less(s.depth, I(settings().max_depth - 1));
+    const V reflectance = surfaces_.reflectance(at);
+    s.flux = s.flux * reflectance;
+    const V way_back = s.ray.direction * F(-1.0f);
+    const M diffuse = equal(at.kind, I(kind_diffuse)) & !ended;
+    const Point2<F> uv = pair(s, HitDimension::direction_u);
+    V direction = s.ray.direction;
+    if (any(diffuse)) {
+      splat(s, at, way_back, diffuse & less(s.path, I(end())));
+      const V wo = cosine_hemisphere(at.normal, uv.u, uv.v);
+      if (surfaces_.has_rough())
+        s.flux = s.flux * select(diffuse, surfaces_.diffuse_factor(at, way_back, wo, at.cos_o, dot(wo, at.normal)),
+                                 V::all(F(1.0f)));
+      direction = select(diffuse, wo, direction);
+    }
+    if (scene_.has_mirror)
+      direction = select(equal(at.kind, I(kind_mirror)), surfaces_.mirrored(s.ray.direction, at), direction);
+    if (scene_.has_glass)
+      direction = select(equal(at.kind, I(kind_glass)), surfaces_.scatter_glass(s.ray.direction, at, uv.u).direction,
+                         direction);
+    s.ray = {at.point, direction, at.surface};
+    const F survival = min(max_component(reflectance), F(largest_survival));
+    const M plays = diffuse | !less(s.depth, I(scene_.settings.roulette_depth));
+    ended = ended | (plays & !(number(s, HitDimension::roulette) < survival));
+    s.flux = s.flux * select(plays, reciprocal(survival), F(1.0f));
+    s.key = skip_dimensions<F>(s.key, hit_block);
+    s.depth = s.depth + I(1);
+    return ended;
+  }
+
+  /// What a diffuse surface sends through the pinhole.
+  void splat(const LightPathState<F>& s, const Shading<F>& at, const V& wi, const M& diffuse) {
+    const V way = broadcast<F>(scene_.camera.eye) - at.point;
+    const F distance2 = dot(way, way);
+    const F inverse = inverse_sqrt(distance2);
+    const F distance = distance2 * inverse;
+    const V wo = way * inverse;
+    const F cos = dot(wo, at.normal);
+    const V from_eye = wo * F(-1.0f);
+    const Projection<F> image = project(scene_, from_eye);
+    M seen = diffuse & image.inside & (cos > F(0.0f));
+    if (!any(seen)) return;
+    seen = seen & !occluded<F, features, true>(scene_, {at.point, wo, at.surface}, distance, I(0), I(-1));
+    const F importance = pinhole_importance(scene_, from_eye, distance, cos);
+    const F weight = importance * light_path_share(scene_, importance) * F(std::numbers::inv_pi_v<float>);
+    V radiance = s.flux * weight;
+    if (surfaces_.has_rough()) radiance = radiance * surfaces_.diffuse_factor(at, wi, wo, at.cos_o, cos);
+    done_.add(radiance, image.pixel, seen, writer());
+  }
+
+  auto writer() const {
+    return [&splats = splats_](std::int32_t pixel, float r, float g, float b) { splats.push_back({pixel, r, g, b}); };
+  }
+
+  const Settings& settings() const { return settings_of<features>(scene_); }
+
+  static constexpr std::uint32_t light_path_seeds = 1u << 31;  ///< apart from all seeds of camera paths
+  static constexpr std::uint32_t longest_sequence = 1u << 30;
+  static constexpr std::uint32_t hit_block = hit_dimensions(1);
+
+  const CompiledScene& scene_;
+  const LightBlock& block_;
+  std::vector<Splat>& splats_;
+  Surfaces<F, features> surfaces_;
+  std::array<std::int32_t, 2 * lane_count<F>> rank_;
+  Results<F> done_;
+};
+
+template <class F>
+void trace_light_block(const CompiledScene& scene, const LightBlock& block, std::vector<Splat>& splats) {
+  with_features(scene, [&](auto features) {
+    if constexpr (features().caustics) LightPathTracer<F, features()>(scene, block, splats).run();
+  });
+}
+
+}  // namespace glimt

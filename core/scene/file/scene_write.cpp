@@ -1,0 +1,89 @@
+#include "scene/fields.h"
+#include "scene/file/scene_file.h"
+#include "scene/file/text.h"
+
+namespace glimt {
+namespace {
+
+std::string vector_text(const glm::dvec3& v) {
+  return std::string("[") + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + "]";
+}
+
+template <class T>
+std::string value_text(const Field<T>& field, const T& object) {
+  if (const auto* member = std::get_if<int T::*>(&field.member)) return std::to_string(object.**member);
+  if (const auto* member = std::get_if<double T::*>(&field.member)) return number_text(object.**member);
+  if (const auto* member = std::get_if<glm::dvec3 T::*>(&field.member)) return vector_text(object.**member);
+  const auto& choice = std::get<Choice<T>>(field.member);
+  return toml_string(choice.names[static_cast<std::size_t>(choice.get(object))]);
+}
+
+std::string line(std::string_view key, const std::string& value) { return std::string(key) + " = " + value + "\n"; }
+
+/// The required fields, and the others where they differ from `defaults`.
+template <class T>
+std::string field_lines(std::span<const Field<T>> fields, const T& object, const T& defaults = {}) {
+  std::string text;
+  for (const Field<T>& field : fields) {
+    const std::string value = value_text(field, object);
+    if (field.required || value != value_text(field, defaults)) text += line(field.key, value);
+  }
+  return text;
+}
+
+/// "[a, b, c]" of whatever `element_text` makes of the elements.
+template <class T, class Text>
+std::string array_text(const std::vector<T>& elements, Text element_text) {
+  std::string text;
+  for (const T& element : elements) text += (text.empty() ? "" : ", ") + element_text(element);
+  return std::string("[") + text + "]";
+}
+
+std::string triangle_text(const std::array<int, 3>& t) {
+  return std::string("[") + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]) + "]";
+}
+
+std::string name_line(const std::string& name) { return name.empty() ? "" : line("name", toml_string(name)); }
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  std::string text = name_line(scene.name);
+  const auto section = [&](const std::string& header) { text += (text.empty() ? "" : "\n") + header + "\n"; };
+
+  section("[camera]");
+  text += field_lines(camera_fields(), scene.camera);
+  section("[image]");
+  text += field_lines(image_fields(), scene.image);
+  Settings begun;  // what a reader of the file has after its method
+  set_method(begun, scene.render.method);
+  begun.method = {};
+  if (const std::string settings = field_lines(settings_fields(), scene.render, begun); !settings.empty()) {
+    section("[render]");
+    text += settings;
+  }
+  for (const Material& material : scene.materials) {
+    const MaterialInfo& info = material_info(material.type);
+    section("[material." + key_text(material.name) + "]");
+    text += line("type", toml_string(info.name)) + field_lines(std::span<const Field<Material>>(info.fields), material);
+  }
+  for (const Sphere& sphere : scene.spheres) {
+    section("[[sphere]]");
+    text +=
+        name_line(sphere.name) + field_lines(sphere_fields(), sphere) + line("material", toml_string(sphere.material));
+  }
+  for (const Polygon& polygon : scene.polygons) {
+    section("[[polygon]]");
+    text += name_line(polygon.name) + line("material", toml_string(polygon.material)) +
+            line("vertices", array_text(polygon.vertices, vector_text));
+  }
+  for (const Mesh& mesh : scene.meshes) {
+    section("[[mesh]]");
+    text += name_line(mesh.name) + line("material", toml_string(mesh.material)) +
+            line("vertices", array_text(mesh.vertices, vector_text)) +
+            line("triangles", array_text(mesh.triangles, triangle_text));
+  }
+  return text;
+}
+
+}  // namespace glimt

@@ -1,0 +1,130 @@
+#include "scene/validate/validate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "scene/fields.h"
+#include "scene/validate/validate_parts.h"
+
+namespace glimt {
+namespace {
+
+constexpr std::int64_t max_pixels = std::int64_t{1} << 26;
+
+template <class T>
+bool in_range(const Field<T>& field, double value) {
+  return value <= field.max && (field.min_excluded ? value > field.min : value >= field.min);
+}
+
+/// What is wrong with the field's value; empty where nothing is.
+template <class T>
+std::string field_mistake(const Field<T>& field, const T& object) {
+  const std::string key(field.key);
+  const auto check = [&](const std::string& name, double value) {
+    return in_range(field, value) ? std::string{}
+                                  : name + " is " + number_text(value) + "; allowed is " +
+                                        range_text(field.min, field.max, field.min_excluded);
+  };
+  if (const auto* member = std::get_if<int T::*>(&field.member)) return check(key, object.**member);
+  if (const auto* member = std::get_if<double T::*>(&field.member)) return check(key, object.**member);
+  if (const auto* member = std::get_if<glm::dvec3 T::*>(&field.member)) {
+    for (int i = 0; i < 3; ++i)
+      if (const double value = (object.**member)[i]; !in_range(field, value))
+        return check(element(key, static_cast<std::size_t>(i)), value);
+    return {};
+  }
+  const auto& choice = std::get<Choice<T>>(field.member);
+  const int value = choice.get(object);
+  if (value >= 0 && value < static_cast<int>(choice.names.size())) return {};
+  return key + " is number " + std::to_string(value) + "; allowed is one of " + joined(choice.names);
+}
+
+/// True where all is well.
+template <class T>
+bool check_fields(std::span<const Field<T>> fields, const T& object, const std::string& path, const std::string& who,
+                  Problems& problems) {
+  const std::size_t before = problems.size();
+  for (const Field<T>& field : fields)
+    if (const std::string mistake = field_mistake(field, object); !mistake.empty())
+      problems.push_back({path + "." + std::string(field.key), who + ": " + mistake});
+  return problems.size() == before;
+}
+
+void check_camera(const Camera& camera, Problems& problems) {
+  if (!check_fields(camera_fields(), camera, "camera", "camera", problems)) return;
+  const glm::dvec3 view = camera.look_at - camera.eye;
+  if (length(view) <= 1e-12 * (length(camera.eye) + length(camera.look_at)))
+    problems.push_back({"camera.look_at", "camera: look_at is where eye is; allowed is any other point"});
+  else if (!(length(cross(view, camera.up)) > 1e-6 * length(view) * length(camera.up)))
+    problems.push_back(
+        {"camera.up", "camera: up is zero or along the direction of view; allowed is any other direction"});
+}
+
+void check_image(const ImageSize& image, Problems& problems) {
+  if (!check_fields(image_fields(), image, "image", "image", problems)) return;
+  if (std::int64_t{image.width} * image.height > max_pixels)
+    problems.push_back({image.width >= image.height ? "image.width" : "image.height",
+                        "image: " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                            " pixels are too many; allowed are at most " + std::to_string(max_pixels)});
+}
+
+void check_materials(const std::vector<Material>& materials, Problems& problems) {
+  std::set<std::string_view> names;
+  for (const Material& material : materials) {
+    const std::string path = "material." + key_text(material.name);
+    const std::string who = "material " + toml_string(material.name);
+    if (material.name.empty())
+      problems.push_back({path, "a material has no name; allowed is any text but the empty one"});
+    if (!names.insert(material.name).second)
+      problems.push_back({path, who + ": the name is taken; allowed is one that no other material has"});
+    check_fields(std::span<const Field<Material>>(material_info(material.type).fields), material, path, who, problems);
+  }
+}
+
+/// Names and materials of the objects of one kind.
+template <class T>
+void check_objects(const Scene& scene, std::string_view kind, const std::vector<T>& objects, Problems& problems) {
+  std::vector<std::string_view> materials;
+  for (const Material& material : scene.materials) materials.push_back(material.name);
+  std::set<std::string_view> names;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const T& object = objects[i];
+    const std::string path = element(kind, i), who = called(kind, object.name, i);
+    if (!object.name.empty() && !names.insert(object.name).second)
+      problems.push_back({path + ".name", who + ": the name is taken; allowed is one that no other " +
+                                              std::string(kind) + " has, or none"});
+    if (find_material(scene, object.material)) continue;
+    std::string message = who + ": there is no material " + toml_string(object.material);
+    message += materials.empty() ? "; the scene has none, and a table [material.NAME] makes one"
+                                 : "; the nearest is " + toml_string(nearest(object.material, materials)) +
+                                       " (allowed: " + joined(materials) + ")";
+    problems.push_back({path + ".material", message});
+  }
+}
+
+}  // namespace
+
+std::vector<Problem> validate(const Scene& scene) {
+  Problems problems;
+  check_camera(scene.camera, problems);
+  check_image(scene.image, problems);
+  check_fields(settings_fields(), scene.render, "render", "render", problems);
+  check_materials(scene.materials, problems);
+  check_objects(scene, "sphere", scene.spheres, problems);
+  check_objects(scene, "polygon", scene.polygons, problems);
+  check_objects(scene, "mesh", scene.meshes, problems);
+  for (std::size_t i = 0; i < scene.spheres.size(); ++i)
+    check_fields(sphere_fields(), scene.spheres[i], element("sphere", i), called("sphere", scene.spheres[i].name, i),
+                 problems);
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) check_polygon(scene.polygons[i], i, problems);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], i, problems);
+  if (scene.spheres.empty() && scene.polygons.empty() && scene.meshes.empty())
+    problems.push_back({"", "the scene holds nothing; it takes at least one [[sphere]], [[polygon]] or [[mesh]]"});
+  if (problems.empty()) check_glass(scene, problems);
+  return problems;
+}
+
+}  // namespace glimt

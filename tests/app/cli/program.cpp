@@ -1,0 +1,86 @@
+#include "app/cli/program.h"
+
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace glimt::program {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void become_glimt(const std::vector<std::string>& arguments, const fs::path& folder) {
+  std::vector<char*> argv{const_cast<char*>("glimt")};
+  for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  if (chdir(folder.c_str()) == 0) execv(GLIMT_PROGRAM, argv.data());
+  _exit(127);
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+std::string take(const fs::path& file) {
+  std::string text;
+  {
+    std::ifstream stream(file, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  fs::remove(file);
+  return text;
+}
+
+}  // namespace
+
+Result run(const std::vector<std::string>& arguments, const fs::path& folder) {
+  const std::string stem = fs::path(folder).string() + "." + std::to_string(getpid());
+  const std::string out = stem + ".out", err = stem + ".err";
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) {
+    dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    become_glimt(arguments, folder);
+  }
+  Result result;
+  result.status = wait_for(child);
+  result.out = take(out);
+  result.err = take(err);
+  return result;
+}
+
+Result run_on_terminal(const std::vector<std::string>& arguments, const fs::path& folder,
+                       const std::string& interrupt_at) {
+  winsize size{};
+  size.ws_row = 24;
+  size.ws_col = 100;
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
+  if (child < 0) throw std::runtime_error("forkpty failed");
+  if (child == 0) become_glimt(arguments, folder);
+  Result result;
+  bool pressed = interrupt_at.empty();
+  char buffer[4096];
+  while (true) {
+    const ssize_t count = read(terminal, buffer, sizeof buffer);
+    if (count <= 0) break;  // EIO once the program has closed its end
+    result.out.append(buffer, static_cast<std::size_t>(count));
+    if (!pressed && result.out.find(interrupt_at) != std::string::npos) pressed = write(terminal, "\x03", 1) == 1;
+  }
+  result.status = wait_for(child);
+  close(terminal);
+  return result;
+}
+
+}  // namespace glimt::program
