@@ -1,7 +1,8 @@
-// What the documents say exists: their links lead somewhere, every setting and material is described in README.md, and
-// third_party/ describes what it installs.
+// What the documents say exists: their links lead somewhere, every scene, setting and material is described in
+// docs/scene-files.md, README.md is short, and third_party/ describes what it installs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -69,6 +70,11 @@ TEST(Documents, LinksLeadSomewhere) {
       EXPECT_TRUE(fs::exists(document.parent_path() / target)) << document << " links to " << target;
 }
 
+TEST(Documents, ReadmeIsShort) {
+  const std::string text = read(root / "README.md");
+  EXPECT_LE(std::ranges::count(text, '\n'), 150) << "README.md: what is longer belongs in docs/";
+}
+
 TEST(Documents, EveryPackageIsExplained) {
   EXPECT_TRUE(names("| libgl-dev, libx |", "libgl-dev"));
   EXPECT_FALSE(names("| libgl-devel |", "libgl-dev"));
@@ -78,25 +84,25 @@ TEST(Documents, EveryPackageIsExplained) {
     EXPECT_TRUE(names(text, package)) << package << " in third_party/README.md";
 }
 
-TEST(Documents, EverySettingAndMaterialIsInTheReadme) {
-  const std::string text = read(root / "README.md");
+TEST(Documents, EverySettingAndMaterialIsDescribed) {
+  const std::string text = read(root / "docs/scene-files.md");
   const auto expect_fields = [&](const auto& fields) {
-    for (const auto& field : fields) EXPECT_TRUE(names(text, field.key)) << field.key << " in README.md";
+    for (const auto& field : fields) EXPECT_TRUE(names(text, field.key)) << field.key << " in docs/scene-files.md";
   };
   expect_fields(glimt::settings_fields());
   expect_fields(glimt::camera_fields());
   expect_fields(glimt::image_fields());
   expect_fields(glimt::sphere_fields());
   for (const auto& material : glimt::material_infos()) {
-    EXPECT_TRUE(names(text, material.name)) << material.name << " in README.md";
+    EXPECT_TRUE(names(text, material.name)) << material.name << " in docs/scene-files.md";
     expect_fields(material.fields);
   }
 }
 
-TEST(Documents, EverySceneIsInTheReadme) {
-  const std::string text = read(root / "README.md");
+TEST(Documents, EverySceneIsDescribed) {
+  const std::string text = read(root / "docs/scene-files.md");
   for (const auto& entry : fs::directory_iterator(root / "scenes"))
-    EXPECT_TRUE(names(text, entry.path().filename().string())) << entry.path().filename() << " in README.md";
+    EXPECT_TRUE(names(text, entry.path().filename().string())) << entry.path().filename() << " in docs/scene-files.md";
 }
 
 }  // namespace
