@@ -64,7 +64,8 @@ int run_render(const RenderOptions& options) {
         show ? [&bar](const Progress& progress) { bar.show(progress); } : std::function<void(const Progress&)>());
   }
 
-  write_image(options.out, film, {}, render_metadata(scene, film.samples(), rendering.seconds));
+  const Display display{.dither = options.no_dither ? Dither::off : Dither::on};
+  write_image(options.out, film, display, render_metadata(scene, film.samples(), rendering.seconds));
   if (!options.stats.empty())
     replace_file(options.stats, stats_json(scene, film, options.execution, rendering.seconds));
   const double estimate = relmse_estimate(film);

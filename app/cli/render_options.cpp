@@ -137,6 +137,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("N");
   add_file_option(command, "--stats", options.stats, "Write what the render was and cost as JSON")
       ->type_name("FILE.json");
+  command.add_flag("--no-dither", options.no_dither,
+                   "Round a PNG's colours to the nearest, which shows bands in smooth shades");
   command.add_flag("--quiet", options.quiet, "No progress and no summary");
 }
 

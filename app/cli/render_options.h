@@ -21,6 +21,7 @@ struct RenderOptions : SceneOptions {
   std::filesystem::path out, stats;
   std::optional<double> seconds;
   bool quiet = false;
+  bool no_dither = false;  ///< in PNG
 };
 
 /// Declares SCENE, --set, --size and --threads.

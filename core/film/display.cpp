@@ -16,11 +16,27 @@ double srgb_to_linear(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// Rounds the sRGB curve exactly, without a power or a branch per value: an octave of linear values is cut into 128
-/// bins, so finely that the rounded code steps up at one value in a bin at most.
+double linear_to_srgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+/// What dithering adds before rounding down: 0..1, evenly, on the lattice R2 of Roberts ("The unreasonable
+/// effectiveness of quasirandom sequences", 2018), whose neighbours differ much. Added to 255 it is exact in a float.
+float dither_offset(std::uint32_t x, std::uint32_t y) {
+  const std::uint32_t turn = x * 3242174889u + y * 2447445414u;  // fractions of 2^32
+  return (static_cast<float>(turn >> 17) + 0.5f) * 0x1p-15f;
+}
+
+/// Rounds the sRGB curve without a power or a branch per value. An octave of linear values is cut into 128 bins.
 class SrgbTable {
  public:
   SrgbTable() {
+    const auto edge_of = [](std::uint32_t bin) { return std::bit_cast<float>((bin << shift) + lowest_bits); };
+    for (std::uint32_t bin = 0; bin < level_.size(); ++bin) {
+      const double at = 255 * linear_to_srgb(edge_of(bin));
+      level_[bin] = static_cast<float>(at);
+      rise_[bin] = static_cast<float>((255 * linear_to_srgb(edge_of(bin + 1)) - at) / bin_size);
+    }
     std::uint32_t code = 0;
     std::uint32_t step = first_of(1);
     for (std::uint32_t bin = 0; bin < bins_.size(); ++bin) {
@@ -31,11 +47,22 @@ class SrgbTable {
     }
   }
 
-  std::uint8_t operator()(float linear) const {
+  /// Exactly to nearest: bins are so fine that the rounded code steps up at one value in a bin at most.
+  std::uint8_t nearest(float linear) const {
     float inside = linear > lowest ? linear : lowest;  // also where it is no number
     inside = inside < highest ? inside : highest;
     const auto bits = std::bit_cast<std::uint32_t>(inside) - lowest_bits;
     return static_cast<std::uint8_t>((bins_[bits >> shift] + bits % bin_size) >> shift);
+  }
+
+  /// Down, after the offset (0..1) is added. A bin's chord is less than 5e-4 of a step below the curve.
+  std::uint8_t dithered(float linear, float offset) const {
+    float inside = linear > 0 ? linear : 0;  // also where it is no number
+    inside = inside < 1 ? inside : 1;
+    const auto bits = std::bit_cast<std::uint32_t>(inside > lowest ? inside : lowest) - lowest_bits;
+    const float on_chord = level_[bits >> shift] + rise_[bits >> shift] * static_cast<float>(bits % bin_size);
+    const float level = inside < lowest ? inside * (255 * 12.92f) : on_chord;
+    return static_cast<std::uint8_t>(static_cast<std::uint32_t>(level + offset));
   }
 
  private:
@@ -55,12 +82,15 @@ class SrgbTable {
 
   /// Code at the lower edge of each bin, in the upper half; what carries into it from the bin's step on, in the lower.
   std::array<std::uint32_t, std::size_t{13} * 128> bins_{};
+  /// The curve in codes at the lower edge of each bin and of 1, and how much it rises from one float to the next.
+  std::array<float, std::size_t{13} * 128 + 1> level_{}, rise_{};
 };
 
 constexpr std::array<std::string_view, 2> tone_names{"linear", "filmic"};
 constexpr std::array<std::string_view, 3> view_names{"image", "error", "samples"};
+constexpr std::array<std::string_view, 2> dither_names{"on", "off"};
 
-const std::array<Field<Display>, 3> display_table{{
+const std::array<Field<Display>, 4> display_table{{
     {"exposure", "brightness of the picture: 1 EV more is twice as bright", &Display::exposure, -32, 32},
     {"tone", "how bright values are brought into range: linear and clipped, or with a film's soft shoulder",
      Choice<Display>{tone_names, [](const Display& d) { return static_cast<int>(d.tone); },
@@ -68,6 +98,9 @@ const std::array<Field<Display>, 3> display_table{{
     {"view", "what is shown: the image, its standard error, or the number of samples per pixel",
      Choice<Display>{view_names, [](const Display& d) { return static_cast<int>(d.view); },
                      [](Display& d, int value) { d.view = static_cast<View>(value); }}},
+    {"dither", "hides the bands of 8-bit colours in a fine pattern of neighbouring shades",
+     Choice<Display>{dither_names, [](const Display& d) { return static_cast<int>(d.dither); },
+                     [](Display& d, int value) { d.dither = static_cast<Dither>(value); }}},
 }};
 
 float filmic(float x) {
@@ -147,14 +180,29 @@ std::vector<std::uint8_t> to_srgb8(const Image& image, const Display& display) {
   if (display.view != View::image)
     return on_colour_scale(image, colour_scale(display.view), display.view == View::error ? factor : 1);
   const bool soft = display.tone == Tone::filmic;
-  const auto values = static_cast<std::ptrdiff_t>(image.rgb.size());
+  const bool dither = display.dither == Dither::on;
   std::vector<std::uint8_t> bytes(image.rgb.size());
-  const float* from = image.rgb.data();
-  std::uint8_t* to = bytes.data();
-#pragma omp parallel for simd if (parallel : values > (1 << 21))
-  for (std::ptrdiff_t i = 0; i < values; ++i) {
-    const float value = from[i] * factor;
-    to[i] = table(soft ? filmic(value) : value);
+#pragma omp parallel for if (bytes.size() > (1 << 21))
+  for (int y = 0; y < image.height; ++y) {
+    const std::ptrdiff_t row = std::ptrdiff_t{3} * image.width * y;
+    const float* from = image.rgb.data() + row;
+    std::uint8_t* to = bytes.data() + row;
+    if (dither) {
+#pragma omp simd
+      for (int x = 0; x < image.width; ++x) {
+        const float offset = dither_offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+        for (int k = 3 * x; k < 3 * x + 3; ++k) {
+          const float value = from[k] * factor;
+          to[k] = table.dithered(soft ? filmic(value) : value, offset);
+        }
+      }
+    } else {
+#pragma omp simd
+      for (int k = 0; k < 3 * image.width; ++k) {
+        const float value = from[k] * factor;
+        to[k] = table.nearest(soft ? filmic(value) : value);
+      }
+    }
   }
   return bytes;
 }

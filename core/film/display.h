@@ -25,11 +25,15 @@ enum class View {
   samples,  ///< their number per pixel, on a colour scale
 };
 
+/// Whether values between two codes become a pattern of both, so that smooth shades show no bands.
+enum class Dither { on, off };
+
 /// How what was rendered becomes a picture. Never part of what is rendered.
 struct Display {
   double exposure = 0;  ///< EV: radiance and error are multiplied by 2^exposure
   Tone tone = Tone::linear;
   View view = View::image;
+  Dither dither = Dither::on;
 
   bool operator==(const Display&) const = default;
 };
@@ -41,8 +45,10 @@ std::span<const Field<Display>> display_fields();
 std::map<std::string, std::string> display_texts(const Display& display);
 Display read_display(const std::map<std::string, std::string>& texts);
 
-/// 8-bit sRGB (IEC 61966-2-1), three bytes a pixel, row by row from the top, exactly rounded to nearest; values that
-/// are no numbers are black. The image holds what display.view names: radiance, standard errors, or numbers of samples.
+/// 8-bit sRGB (IEC 61966-2-1), three bytes a pixel, row by row from the top; values that are no numbers are black. The
+/// image holds what display.view names: radiance, standard errors, or numbers of samples. Radiance is rounded to the
+/// nearest code. With dithering up to half a step is added or taken away before. How much depends on the pixel's place
+/// alone, and is the same for its three channels, so grey stays grey.
 std::vector<std::uint8_t> to_srgb8(const Image& image, const Display& display);
 
 /// The logarithmic colour scale of a view that is not the image: values at its two ends, and its colours, 8-bit sRGB,

@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -14,11 +15,24 @@ namespace glimt {
 namespace {
 
 constexpr double widest_exposure = 8;  ///< EV, of the slider; more can be typed
+constexpr const char* only_display = " Only the display changes, rendering goes on.";
+constexpr std::string_view dither_key = "dither";
 
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
+}
+
+/// A switch at the end of a row; `field` is a choice between on and off.
+bool dither_switch(const Field<Display>& field, Display& display) {
+  bool on = display.dither == Dither::on;
+  ImGui::SameLine(0, style::scaled(8));
+  const bool changed = ImGui::Checkbox(label_of(field.key).c_str(), &on);
+  note_widget("display." + std::string(field.key));
+  tooltip(sentence(field.doc) + "." + only_display);
+  if (changed) display.dither = on ? Dither::on : Dither::off;
+  return changed;
 }
 
 /// The scale of the view.
@@ -63,7 +77,8 @@ void draw_display_panel(const ViewerState& state, Edits& edits) {
   Display display = state.display;
   bool changed = false;
   for (const auto& field : display_fields()) {
-    const std::string tip = sentence(field.doc) + ". Only the display changes, rendering goes on.";
+    if (field.key == dither_key) continue;  // beside the exposure
+    const std::string tip = sentence(field.doc) + "." + only_display;
     if (const auto* choice = std::get_if<Choice<Display>>(&field.member)) {
       int value = choice->get(display);
       if (edit_choice({"display." + std::string(field.key), field.key, tip}, choice->names, value)) {
@@ -73,10 +88,15 @@ void draw_display_panel(const ViewerState& state, Edits& edits) {
       continue;
     }
     begin_row(label_of(field.key), tip + "\nDrag, or Ctrl+click to type a number.");
+    const auto dither = std::ranges::find(display_fields(), dither_key, &Field<Display>::key);
+    const float box = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x +
+                      ImGui::CalcTextSize(label_of(dither_key).c_str()).x + style::scaled(8);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - box);
     ImGui::PushID("exposure");
     changed |= slider(display.exposure, -widest_exposure, widest_exposure, "%+.1f EV");
     note_widget("exposure");
     ImGui::PopID();
+    changed |= dither_switch(*dither, display);
   }
   if (changed) edits.display = display;
   if (display.view != View::image) draw_legend(display);

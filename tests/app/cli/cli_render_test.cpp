@@ -79,6 +79,16 @@ TEST_F(Render, WritesEveryFormat) {
   EXPECT_EQ(png_pixels(folder / "a.png"), to_srgb8(read_image(folder / "a.exr"), {}));
 }
 
+TEST_F(Render, DithersAPngUnlessToldNotTo) {
+  for (const char* out : {"a.exr", "a.png"}) ASSERT_EQ(render(out, {"--spp", "4", "--no-dither"}).status, 0);
+  ASSERT_EQ(render("b.exr", {"--spp", "4"}).status, 0);
+  const Image image = read_image(folder / "a.exr");
+  EXPECT_EQ(image.rgb, read_image(folder / "b.exr").rgb);
+  EXPECT_EQ(png_pixels(folder / "a.png"), to_srgb8(image, {.dither = Dither::off}));
+  EXPECT_NE(png_pixels(folder / "a.png"), to_srgb8(image, {}));
+  EXPECT_EQ(read_metadata(folder / "a.png").at("dither"), "off");
+}
+
 TEST_F(Render, ExrHasErrorChannelsAndAttributes) {
   ASSERT_EQ(render("a.exr", {"--spp", "6", "--seed", "9"}).status, 0);
   const auto channels = exr_channels(folder / "a.exr");

@@ -1,8 +1,10 @@
+#include <stb_image.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <numbers>
 #include <ostream>
 #include <set>
@@ -383,6 +385,33 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Fit,
                                            Size{3840, 2160, 2, 1}, Size{1280, 800, 1, 2}));
 
 using WindowSnapshot = testing::OwnFolder;
+
+/// Colours of a picture of image_width x image_height pixels.
+std::vector<std::array<int, 3>> png_picture(const std::filesystem::path& file) {
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> bytes(
+      stbi_load(file.c_str(), &width, &height, &channels, 3), &stbi_image_free);
+  EXPECT_TRUE(bytes && width == image_width && height == image_height) << file;
+  std::vector<std::array<int, 3>> pixels;
+  for (int i = 0; bytes && i < 3 * width * height; i += 3)
+    pixels.push_back({bytes.get()[i], bytes.get()[i + 1], bytes.get()[i + 2]});
+  return pixels;
+}
+
+TEST_F(WindowSnapshot, IsWhatIsOnTheScreenDitheredOrNot) {
+  Offscreen window(small_room(), window_width, window_height);
+  ASSERT_TRUE(window.draw_until_finished());
+  const auto dithered = picture(window);
+  for (const bool dither : {true, false}) {
+    if (!dither) window.press("display.dither");
+    const auto shown = picture(window);
+    EXPECT_EQ(shown == dithered, dither);
+    const std::string file = dither ? "picture-001.png" : "picture-002.png";
+    window.press("snapshot");
+    ASSERT_TRUE(window.draw_until([&] { return window.state().message.text.find(file) != std::string::npos; }));
+    EXPECT_EQ(png_picture(file), shown);
+  }
+}
 
 TEST_F(WindowSnapshot, HoldsWhatTheWindowShowedAndReplacesNothing) {
   std::ofstream("picture-001.png") << "precious";

@@ -16,7 +16,7 @@ double srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055
 int exact_code(double linear) { return static_cast<int>(std::floor(255 * srgb(linear) + 0.5)); }
 
 std::uint8_t code_of(float linear, double exposure = 0) {
-  return to_srgb8({1, 1, {linear, linear, linear}}, {exposure})[0];
+  return to_srgb8({1, 1, {linear, linear, linear}}, {.exposure = exposure, .dither = Dither::off})[0];
 }
 
 TEST(Display, RoundsTheExactCurveToNearest) {
@@ -25,7 +25,7 @@ TEST(Display, RoundsTheExactCurveToNearest) {
     image.rgb.push_back(std::bit_cast<float>(bits));
   image.rgb.resize(image.rgb.size() / 3 * 3);
   image.width = static_cast<int>(image.rgb.size() / 3);
-  const auto codes = to_srgb8(image, {});
+  const auto codes = to_srgb8(image, {.dither = Dither::off});
   ASSERT_EQ(codes.size(), image.rgb.size());
   int wrong = 0;
   for (std::size_t i = 0; i < codes.size() && wrong < 10; ++i)
@@ -67,9 +67,8 @@ TEST(Display, ExposureIsInStops) {
 }
 
 TEST(Display, FilmicCurveIsThePublishedOne) {
-  const Display soft{.tone = Tone::filmic};
   const auto code = [&](float x, double exposure = 0) {
-    return to_srgb8({1, 1, {x, x, x}}, {.exposure = exposure, .tone = soft.tone})[0];
+    return to_srgb8({1, 1, {x, x, x}}, {.exposure = exposure, .tone = Tone::filmic, .dither = Dither::off})[0];
   };
   for (const double x : {0.0, 0.01, 0.18, 0.5, 1.0, 2.0, 4.0})
     EXPECT_EQ(code(static_cast<float>(x)), exact_code(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14))) << x;
@@ -142,7 +141,7 @@ TEST(Display, ColourScaleIsPerceptuallyEven) {
 }
 
 TEST(Display, IsReadBackFromItsTexts) {
-  const Display display{.exposure = -1.3, .tone = Tone::filmic, .view = View::samples};
+  const Display display{.exposure = -1.3, .tone = Tone::filmic, .view = View::samples, .dither = Dither::off};
   EXPECT_EQ(read_display(display_texts(display)), display);
   EXPECT_EQ(read_display({}), Display{});
   EXPECT_EQ(read_display({{"exposure", "bright"}, {"tone", "loud"}, {"view", ""}}), Display{});
@@ -157,8 +156,67 @@ TEST(Display, KeepsTheOrderOfPixelsAndChannels) {
 TEST(Display, LargeImagesAreDoneAlike) {
   Image image{1200, 1000, std::vector<float>(3'600'000)};
   for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<float>(i % 1009) / 1009;
-  const auto codes = to_srgb8(image, {});
+  const auto codes = to_srgb8(image, {.dither = Dither::off});
   for (std::size_t i = 0; i < 1009; ++i) ASSERT_EQ(codes[1009 * 3500 + i], codes[i]);
+  const auto dithered = to_srgb8(image, {});
+  image.height = 10;
+  image.rgb.resize(std::size_t{3} * 1200 * 10);
+  const auto few = to_srgb8(image, {});
+  for (std::size_t i = 0; i < few.size(); ++i) ASSERT_EQ(dithered[i], few[i]);
+}
+
+/// An image of one value for all pixels and channels.
+Image flat(int width, int height, double value) {
+  return {width, height,
+          std::vector<float>(std::size_t{3} * static_cast<std::size_t>(width * height), static_cast<float>(value))};
+}
+
+// The mean of the codes over a flat region is the curve itself, which rounding loses. 1/5000 of a step is left to the
+// 4096 pixels' offsets, which are not quite evenly spread, and 1/2000 to the table's chords.
+TEST(Display, DitherKeepsTheMeanOfFlatRegions) {
+  for (const double code : {0.1, 0.37, 0.5, 1.25, 7.9, 31.62, 117.5, 200.01, 254.4, 254.99}) {
+    const double encoded = code / 255;
+    const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+    const Image image = flat(64, 64, linear);
+    double sum = 0, low = 255, high = 0;
+    for (const std::uint8_t c : to_srgb8(image, {})) {
+      sum += c;
+      low = std::min(low, c - code);
+      high = std::max(high, c - code);
+    }
+    EXPECT_NEAR(sum / static_cast<double>(image.rgb.size()), code, 2e-3) << code;
+    EXPECT_GT(low, -1) << code;
+    EXPECT_LT(high, 1) << code;
+    EXPECT_NE(std::round(code), code) << "rounding must lose something here";
+  }
+}
+
+// Squares of 8x8 pixels are as bright as the whole, so that no pattern is large enough to be seen. Every such square of
+// the lattice has less than 3 of its 64 pixels too many or too few; of independent offsets about half would have.
+TEST(Display, DitherIsEvenInSmallSquares) {
+  const double code = 100.3;
+  const Image image = flat(256, 256, std::pow((code / 255 + 0.055) / 1.055, 2.4));
+  const auto codes = to_srgb8(image, {});
+  for (int y0 = 0; y0 < 256; y0 += 8)
+    for (int x0 = 0; x0 < 256; x0 += 8) {
+      double sum = 0;
+      for (int y = y0; y < y0 + 8; ++y)
+        for (int x = x0; x < x0 + 8; ++x) sum += codes[3 * static_cast<std::size_t>(256 * y + x)];
+      ASSERT_NEAR(sum / 64, code, 3.0 / 64) << x0 << ", " << y0;
+    }
+}
+
+TEST(Display, DitherLeavesGreyAndTheEndsAlone) {
+  const auto grey = to_srgb8(flat(32, 32, 0.2), {});
+  for (std::size_t i = 0; i < grey.size(); i += 3) {
+    ASSERT_EQ(grey[i], grey[i + 1]);
+    ASSERT_EQ(grey[i], grey[i + 2]);
+  }
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double dark : {0.0, -1.0, -infinity, nan})
+    EXPECT_EQ(to_srgb8(flat(200, 200, dark), {}), std::vector<std::uint8_t>(std::size_t{3} * 200 * 200, 0)) << dark;
+  for (const double bright : {1.0, 1.0001, 1e30, infinity})
+    EXPECT_EQ(to_srgb8(flat(200, 200, bright), {}), std::vector<std::uint8_t>(std::size_t{3} * 200 * 200, 255));
 }
 
 }  // namespace
