@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "scene/fields.h"
 #include "scene/file/text.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/validate/validate.h"
@@ -28,7 +29,7 @@ std::vector<Face> faces_of(const Scene& scene) {
   for (const Mesh& m : scene.meshes) {
     const int material = material_index(scene, m.material);
     if (m.triangles.size() <= max_room_mesh_triangles &&
-        scene.materials[static_cast<std::size_t>(material)].type != MaterialType::glass)
+        !transmits(scene.materials[static_cast<std::size_t>(material)]))
       for (const auto& t : m.triangles) faces.push_back({triangle_vertices(m, t), material});
   }
   return faces;
@@ -88,7 +89,7 @@ Reach find_reach(const Scene& scene) {
   reach.room = find_room(faces, scene.camera.eye, reach.tolerance);
 
   auto is_light = [&](const std::string& material) {
-    return scene.materials[static_cast<std::size_t>(material_index(scene, material))].type == MaterialType::light;
+    return is_lamp(scene.materials[static_cast<std::size_t>(material_index(scene, material))]);
   };
   auto leave_out = [&](const auto& object, bool in_wall) {
     reach.left_out.push_back(toml_string(object.name) +
