@@ -7,7 +7,6 @@
 #include "chart/materials.h"
 #include "chart/relative_weights.h"
 #include "scene/camera_view.h"
-#include "scene/fields.h"
 #include "scene/pick.h"
 
 namespace glimt {
@@ -76,7 +75,7 @@ std::vector<bool> sees_specular(const Scene& scene) {
   std::vector<bool> sees;
   for (int y = 0; y < scene.image.height; ++y)
     for (int x = 0; x < scene.image.width; ++x) {
-      const auto first = pick(scene, {view.eye, view.direction({x + 0.5, y + 0.5})});
+      const auto first = pick_seen(scene, {view.eye, view.direction({x + 0.5, y + 0.5})});
       const Material* material = first ? find_material(scene, material_name_of(scene, first->object)) : nullptr;
       sees.push_back(material && is_specular(*material));
     }

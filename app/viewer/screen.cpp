@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "viewer/chart_view/chart_panel.h"
+#include "viewer/picture/notice.h"
 #include "viewer/widgets/labels.h"
 #include "viewer/widgets/layout.h"
 #include "viewer/widgets/style.h"
@@ -84,7 +85,8 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   widgets_["image"] = picture.rect;
   tool_.take_mouse(state, layout.image, picture, edits);
   inspector_.draw(state, layout.image, picture);
-  if (state.hint && state.frame) draw_hint(layout.image);
+  draw_hint(state, layout.image);
+  draw_notice(state, layout.image, edits);
   compare_->draw_line(state, layout.image, picture, edits);
   Requests requests;
   draw_column(state, layout.column, edits, requests);
@@ -120,7 +122,7 @@ void Screen::follow_gesture(Edits& edits) {
   const unsigned active = ImGui::GetCurrentContext()->ActiveId;
   const double now = ImGui::GetTime();
   bool other = active != active_ || ImGui::IsMouseClicked(ImGuiMouseButton_Left) ||
-               ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
+               ImGui::IsMouseClicked(ImGuiMouseButton_Middle) || ImGui::IsMouseClicked(ImGuiMouseButton_Right);
   if (io.MouseWheel != 0) other |= now - std::exchange(last_scroll_, now) > pause_between_scrolls;
   active_ = active;
   if (other) ++gesture_;
@@ -193,8 +195,15 @@ void Screen::draw_tabs(const ViewerState& state, Edits& edits) {
   ImGui::EndTabBar();
 }
 
-void Screen::draw_hint(const Rect& area) const {
-  const char* line = "Click an object, drag to look around, scroll to come closer. F1 for more.";
+void Screen::draw_hint(const ViewerState& state, const Rect& area) const {
+  std::string line;
+  if (tool_.flying()) {
+    line =
+        "Flying at " + short_number(tool_.speed(state)) + " m/s.  W A S D or arrows, Q down, E up, the wheel for speed";
+  } else if (state.hint && state.frame) {
+    line = "Click an object, drag to look around, scroll to come closer. F1 for more.";
+  }
+  if (line.empty()) return;
   const std::string text = fit_text(line, area.width - style::scaled(48));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at{area.x + (area.width - size.x) / 2, area.y + area.height - size.y - style::scaled(24)};

@@ -35,6 +35,7 @@ class Screen {
   // What keys do to the screen itself.
   void toggle_help() { help_ = !help_; }
   void show_files(FilesPanel::Purpose purpose, const ViewerState& state) { files_.show(purpose, state); }
+  bool flying() const { return tool_.flying(); }
   void fit_picture() { tool_.fit(); }
   void show_pixel_by_pixel() { tool_.set_zoom({.zoom = 1}); }
   /// Closes the sheets over the picture, or selects nothing.
@@ -51,7 +52,7 @@ class Screen {
   void go_to_worst_pixel(const ViewerState& state, Edits& edits);
   void draw_tabs(const ViewerState& state, Edits& edits);
   void draw_status(const ViewerState& state, const Rect& place, const Placement& picture);
-  void draw_hint(const Rect& area) const;
+  void draw_hint(const ViewerState& state, const Rect& area) const;
   void set_scale(float scale, float ratio);
   void follow_gesture(Edits& edits);
 

@@ -75,6 +75,7 @@ void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers
     if (control && letter == 'q') in.edits.quit = true;
     return;
   }
+  if (in.screen->flying()) return;
   on_letter(in, letter, control, shift);
   if (key == GLFW_KEY_SPACE && !io.NavVisible) in.edits.toggle_pause = true;
   if (key == GLFW_KEY_HOME) in.edits.edit(*in.state).camera = in.state->opened_camera;
@@ -135,8 +136,11 @@ bool answered(const ViewerState& state) { return state.frame && state.frame->ver
 void remember(const Window& window, const ViewerState& state) {
   const auto file = window_settings_file();
   if (file.empty()) return;
-  WindowSettings settings{
-      .display = state.display, .folder = state.folder, .hint_seen = !state.hint, .chart = state.chart.view};
+  WindowSettings settings{.display = state.display,
+                          .folder = state.folder,
+                          .hint_seen = !state.hint,
+                          .chart = state.chart.view,
+                          .drag_view = state.drag_view};
   window.size(settings.width, settings.height);
   try {
     write_window_settings(file, settings);
@@ -151,7 +155,7 @@ void run(const std::filesystem::path& scene_file) {
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
   Controller controller(std::move(scene), scene_file, [] { glfwPostEmptyEvent(); });
-  controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note);
+  controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note, settings.drag_view);
   const Window window(settings.width, settings.height);
   Inbox in;
   set_callbacks(window.handle(), in);
@@ -172,7 +176,7 @@ void run(const std::filesystem::path& scene_file) {
     if (window.hidden()) unsettled = 0;
     if (unsettled == 0) continue;
 
-    --unsettled;
+    if (!screen.flying()) --unsettled;
     const double start = glfwGetTime();
     ImGui_ImplGlfw_NewFrame();
     screen.lay_out(controller.state(), window.scale(), in.edits);

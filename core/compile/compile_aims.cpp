@@ -73,7 +73,8 @@ void lower_aims(Lowering& l) {
       flux_times_radiance += guess * sum;
     }
   const Settings& settings = l.scene.render;
-  if (aims.empty() || settings.light_paths == 0 || settings.caustics == Caustics::off) return;
+  // Light paths do not know what a cutaway hides from the camera.
+  if (aims.empty() || settings.light_paths == 0 || settings.caustics == Caustics::off || out.cutaway) return;
   out.light_paths = static_cast<int>(std::ceil(settings.light_paths * out.width * out.height));
   out.light_path_noise = static_cast<float>(flux * flux / (flux_times_radiance * std::numbers::pi * out.light_paths));
 

@@ -202,7 +202,7 @@ struct CompiledScene {
   std::vector<Solid> solids;
   std::vector<SolidPlane> solid_planes;
   std::vector<SphereShape> spheres;  ///< opaque, hit from outside
-  std::vector<SphereShape> shells;   ///< opaque, around the camera, hit from inside
+  std::vector<SphereShape> shells;   ///< opaque, around the camera or the room, hit from inside
   std::vector<SphereShape> glass_spheres;
   std::vector<PolygonShape> polygons;
   std::vector<PolygonBound> polygon_bounds;
@@ -216,6 +216,9 @@ struct CompiledScene {
   std::vector<ChainSphere> chain_spheres;
   bool has_mirror = false, has_glass = false, has_oren_nayar = false, has_eon = false;
   bool has_glow = false;          ///< reflecting surfaces with emission
+  bool cutaway = false;           ///< camera rays look through backs; see kernel/geometry/cutaway.h
+  int room_surfaces = 0;          ///< how many there are; they come first
+  bool camera_outside = false;    ///< there is a closed room, and the eye is not in it
   bool room_hides_lamps = false;  ///< a lamp is partly outside the room, so shadow rays test the room too
   std::array<bool, lamp_shapes> has_lamp_shape{};  ///< by LampShape
 

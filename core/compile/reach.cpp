@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "scene/fields.h"
 #include "scene/file/text.h"
 #include "scene/geometry/mesh_measures.h"
+#include "scene/surroundings.h"
 #include "scene/validate/validate.h"
 
 namespace glimt {
@@ -29,25 +29,22 @@ std::vector<Face> faces_of(const Scene& scene) {
   for (const Mesh& m : scene.meshes) {
     const int material = material_index(scene, m.material);
     if (m.triangles.size() <= max_room_mesh_triangles &&
-        !transmits(scene.materials[static_cast<std::size_t>(material)]))
+        scene.materials[static_cast<std::size_t>(material)].type != MaterialType::glass)
       for (const auto& t : m.triangles) faces.push_back({triangle_vertices(m, t), material});
   }
   return faces;
 }
 
-double size_of(const Scene& scene) {
-  dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
-  auto include = [&](const dvec3& v) {
-    low = glm::min(low, v);
-    high = glm::max(high, v);
-  };
-  for (const Polygon& p : scene.polygons) std::for_each(p.vertices.begin(), p.vertices.end(), include);
-  for (const Mesh& m : scene.meshes) std::for_each(m.vertices.begin(), m.vertices.end(), include);
-  for (const Sphere& s : scene.spheres) {
-    include(s.center - s.radius);
-    include(s.center + s.radius);
-  }
-  return length(high - low);
+/// Whether there is a closed room that the eye, which is in none, does not see into.
+bool is_outside(const Scene& scene, const std::vector<Face>& faces, double tolerance) {
+  const dvec3& eye = scene.camera.eye;
+  const auto place = place_in_room(scene, eye);
+  if (!place) return false;
+  if (!find_room(faces, *place, tolerance).empty()) return true;
+  return std::ranges::any_of(scene.spheres, [&](const Sphere& s) {
+    return s.radius > length(*place - s.center) && s.radius < length(eye - s.center) &&
+           find_material(scene, s.material)->type != MaterialType::glass;
+  });
 }
 
 enum class Place { inside, piercing, on_face, outside };
@@ -86,10 +83,17 @@ Reach find_reach(const Scene& scene) {
   // off.
   reach.tolerance = size_of(scene) * 0x1p-20;
   const std::vector<Face> faces = faces_of(scene);
-  reach.room = find_room(faces, scene.camera.eye, reach.tolerance);
+  const bool cutaway = scene.camera.cutaway == Cutaway::on;
+  reach.inside = cutaway ? place_in_room(scene, scene.camera.eye) : std::optional(scene.camera.eye);
+  if (reach.inside) reach.room = find_room(faces, *reach.inside, reach.tolerance);
+  reach.camera_outside = !cutaway && reach.room.empty() && is_outside(scene, faces, reach.tolerance);
+  if (reach.camera_outside)
+    reach.warnings.emplace_back(
+        "the camera is outside the room, whose walls hide what is in it: move it into the room, or see through them "
+        "with camera.cutaway = \"on\"");
 
   auto is_light = [&](const std::string& material) {
-    return is_lamp(scene.materials[static_cast<std::size_t>(material_index(scene, material))]);
+    return scene.materials[static_cast<std::size_t>(material_index(scene, material))].type == MaterialType::light;
   };
   auto leave_out = [&](const auto& object, bool in_wall) {
     reach.left_out.push_back(toml_string(object.name) +
@@ -111,7 +115,7 @@ Reach find_reach(const Scene& scene) {
   for (const Polygon& p : scene.polygons)
     if (!bounds_room(reach, p, material_index(scene, p.material))) keep(p, p.vertices, 0, reach.polygons, &p);
   for (const Mesh& m : scene.meshes) {
-    if (is_closed(m) && std::abs(winding_number(m, scene.camera.eye)) < 0.5) {
+    if (is_closed(m) && !(reach.inside && std::abs(winding_number(m, *reach.inside)) > 0.5)) {
       keep(m, m.vertices, 0, reach.meshes, m);
       continue;
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "scene/geometry/room.h"
 #include "scene/scene.h"
 
@@ -7,8 +9,11 @@ namespace glimt {
 
 /// What of a scene the paths from its camera can reach.
 struct Reach {
-  double tolerance = 0;        ///< metres; surfaces nearer to each other than this coincide
-  std::vector<RoomFace> room;  ///< the closed convex room around the camera, or empty
+  double tolerance = 0;  ///< metres; surfaces nearer to each other than this coincide
+  /// A point where paths are: the eye. With a cutaway a point of the room, or nothing where there is none.
+  std::optional<glm::dvec3> inside;
+  std::vector<RoomFace> room;   ///< the closed convex room around `inside`, or empty
+  bool camera_outside = false;  ///< there is a closed room, and the eye is not in it
   std::vector<const Sphere*> spheres;
   std::vector<const Polygon*> polygons;
   std::vector<Mesh> meshes;                     ///< without the triangles that are part of the room

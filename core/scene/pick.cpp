@@ -25,7 +25,10 @@ decltype(auto) visit_object(S& scene, const ObjectId& object, F f) {
   }
 }
 
-double hit(const Sphere& sphere, const Ray& ray) {
+/// Which sides of a surface rays meet.
+enum class Sides { both, front };
+
+double hit(const Sphere& sphere, const Ray& ray, Sides sides) {
   const dvec3 to_eye = ray.origin - sphere.center;
   const double a = dot(ray.direction, ray.direction), b = dot(to_eye, ray.direction);
   // The discriminant from the centre's distance to the ray: no cancellation far away.
@@ -34,14 +37,14 @@ double hit(const Sphere& sphere, const Ray& ray) {
   if (discriminant < 0) return none;
   const double root = std::sqrt(discriminant);
   if (-b - root > 0) return (-b - root) / a;
-  return -b + root > 0 ? (-b + root) / a : none;
+  return sides == Sides::both && -b + root > 0 ? (-b + root) / a : none;
 }
 
-/// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997, from both sides.
-double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const Ray& ray) {
+/// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const Ray& ray, Sides sides) {
   const dvec3 e1 = v1 - v0, e2 = v2 - v0, p = cross(ray.direction, e2);
   const double determinant = dot(e1, p);
-  if (determinant == 0) return none;
+  if (determinant == 0 || (sides == Sides::front && determinant < 0)) return none;
   const dvec3 s = (ray.origin - v0) / determinant;
   const double u = dot(s, p);
   if (!(u >= 0 && u <= 1)) return none;
@@ -50,18 +53,31 @@ double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const Ray& ray) {
   return v >= 0 && u + v <= 1 && t > 0 ? t : none;
 }
 
-double hit(const Polygon& polygon, const Ray& ray) {
+double hit(const Polygon& polygon, const Ray& ray, Sides sides) {
   double nearest = none;
   const auto& v = polygon.vertices;
-  for (std::size_t i = 1; i + 1 < v.size(); ++i) nearest = std::min(nearest, hit(v[0], v[i], v[i + 1], ray));
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) nearest = std::min(nearest, hit(v[0], v[i], v[i + 1], ray, sides));
   return nearest;
 }
 
-double hit(const Mesh& mesh, const Ray& ray) {
+double hit(const Mesh& mesh, const Ray& ray, Sides sides) {
   double nearest = none;
   const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
-  for (const auto& t : mesh.triangles) nearest = std::min(nearest, hit(vertex(t[0]), vertex(t[1]), vertex(t[2]), ray));
+  for (const auto& t : mesh.triangles)
+    nearest = std::min(nearest, hit(vertex(t[0]), vertex(t[1]), vertex(t[2]), ray, sides));
   return nearest;
+}
+
+template <class SidesOf>
+std::optional<Pick> first_hit(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out,
+                              SidesOf sides_of) {
+  Pick first{{}, none};
+  for (const ObjectId& object : objects_of(scene)) {
+    if (object == left_out) continue;
+    const double distance = visit_object(scene, object, [&](const auto& o) { return hit(o, ray, sides_of(object)); });
+    if (distance < first.distance) first = {object, distance};
+  }
+  return first.distance < none ? std::optional(first) : std::nullopt;
 }
 
 }  // namespace
@@ -98,13 +114,15 @@ std::string& material_name_of(Scene& scene, const ObjectId& object) {
 }
 
 std::optional<Pick> pick(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out) {
-  Pick first{{}, none};
-  for (const ObjectId& object : objects_of(scene)) {
-    if (object == left_out) continue;
-    const double distance = visit_object(scene, object, [&](const auto& o) { return hit(o, ray); });
-    if (distance < first.distance) first = {object, distance};
-  }
-  return first.distance < none ? std::optional(first) : std::nullopt;
+  return first_hit(scene, ray, left_out, [](const ObjectId&) { return Sides::both; });
+}
+
+std::optional<Pick> pick_seen(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out) {
+  if (scene.camera.cutaway == Cutaway::off) return pick(scene, ray, left_out);
+  return first_hit(scene, ray, left_out, [&](const ObjectId& object) {
+    const Material* material = find_material(scene, material_name_of(scene, object));
+    return material != nullptr && material->type == MaterialType::glass ? Sides::both : Sides::front;
+  });
 }
 
 }  // namespace glimt

@@ -43,4 +43,7 @@ struct Pick {
 /// the order of objects_of(). `left_out` is looked through.
 std::optional<Pick> pick(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out = {});
 
+/// What the scene's camera sees along a ray: the same, but with a cutaway it looks through backs that are not glass.
+std::optional<Pick> pick_seen(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out = {});
+
 }  // namespace glimt

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "scene/camera_view.h"
+#include "scene/surroundings.h"
 #include "viewer/state/camera_moves.h"
 #include "viewer/widgets/style.h"
 
@@ -15,6 +16,9 @@ namespace glimt {
 namespace {
 
 constexpr double dolly_step = 0.9;                   ///< distance after a notch of the wheel over the one before
+constexpr double pace_step = 1.25;                   ///< of the flight, a notch
+constexpr double least_pace = 1e-4, most_pace = 10;  ///< sizes of the scene a second
+constexpr float longest_picture = 0.1F;              ///< that a flight goes on in, seconds
 constexpr float zoom_step = 1.25F;                   ///< of the picture, a notch
 constexpr float least_zoom = 0.05F, most_zoom = 64;  ///< framebuffer pixels per picture pixel
 
@@ -31,28 +35,64 @@ void ImageTool::take_mouse(const ViewerState& state, const Rect& area, const Pla
   const ImGuiIO& io = ImGui::GetIO();
   const bool free = !io.WantCaptureMouse && state.frame && is_inside(area, io.MousePos.x, io.MousePos.y);
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left),
-             middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
-  if (free && (left || middle) && drag_ == Drag::none) {
+             middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle),
+             right = ImGui::IsMouseClicked(ImGuiMouseButton_Right);
+  if (free && (left || middle || right) && drag_ == Drag::none) {
     press(state, image_place(state, place, io.MousePos));
-    drag_ = io.KeyCtrl ? Drag::picture : middle || io.KeyShift ? Drag::pan : Drag::undecided;
+    other_view_ = io.KeyAlt;
+    begin(right ? Drag::fly : io.KeyCtrl ? Drag::picture : middle || io.KeyShift ? Drag::pan : Drag::undecided);
   }
   if (drag_ == Drag::undecided && ImGui::IsMouseDragging(ImGuiMouseButton_Left, style::scaled(4))) {
-    drag_ = under_ && under_ == state.selected && under_->kind == ObjectKind::sphere ? Drag::sphere : Drag::orbit;
+    const bool sphere = under_ && under_ == state.selected && under_->kind == ObjectKind::sphere;
+    begin(sphere ? Drag::sphere : drag_turns(state) != other_view_ ? Drag::turn : Drag::orbit);
   }
   if (drag_ == Drag::undecided && ImGui::IsMouseReleased(ImGuiMouseButton_Left)) edits.select = under_;
-  if (!io.MouseDown[ImGuiMouseButton_Left] && !io.MouseDown[ImGuiMouseButton_Middle]) drag_ = Drag::none;
+  if (!io.MouseDown[ImGuiMouseButton_Left] && !io.MouseDown[ImGuiMouseButton_Middle] &&
+      !io.MouseDown[ImGuiMouseButton_Right])
+    begin(Drag::none);
   if (drag_ != Drag::none && drag_ != Drag::undecided && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
     drag(state, area, place, edits);
   }
-  if (free && io.MouseWheel != 0) scroll(state, area, place, edits);
+  if ((free || flying()) && io.MouseWheel != 0) scroll(state, area, place, edits);
+  if (flying()) fly(state, edits);
   if (drag_ == Drag::pan || drag_ == Drag::picture || drag_ == Drag::sphere)
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+}
+
+void ImageTool::begin(Drag drag) {
+  drag_ = drag;
+  // Arrow keys move either the camera or from control to control.
+  ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
+  if (flying() && (flags & ImGuiConfigFlags_NavEnableKeyboard) != 0) {
+    flags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+    navigates_ = true;
+  } else if (!flying() && navigates_) {
+    flags |= ImGuiConfigFlags_NavEnableKeyboard;
+    navigates_ = false;
+  }
+}
+
+double ImageTool::speed(const ViewerState& state) const { return pace_ * size_of(state.scene); }
+
+void ImageTool::fly(const ViewerState& state, Edits& edits) const {
+  const auto key = [](int letter, ImGuiKey arrow) {
+    return ImGui::IsKeyDown(letter) || ImGui::IsKeyDown(ImGui::GetKeyIndex(arrow)) ? 1.0 : 0.0;
+  };
+  const Camera& camera = edits.edit(state).camera;
+  const CameraView view(camera, state.scene.image);
+  const glm::dvec3 way = view.forward * (key('W', ImGuiKey_UpArrow) - key('S', ImGuiKey_DownArrow)) +
+                         view.right * (key('D', ImGuiKey_RightArrow) - key('A', ImGuiKey_LeftArrow)) +
+                         normalize(camera.up) * (key('E', ImGuiKey_PageUp) - key('Q', ImGuiKey_PageDown));
+  if (way == glm::dvec3{0}) return;
+  const double seconds = std::min(ImGui::GetIO().DeltaTime, longest_picture);
+  Scene& scene = edits.edit(state);
+  scene.camera = approach(scene, pan(scene.camera, normalize(way) * (speed(state) * seconds)));
 }
 
 void ImageTool::press(const ViewerState& state, const glm::dvec2& in_image) {
   const CameraView view(state.scene.camera, state.scene.image);
   const glm::dvec3 direction = view.direction(in_image);
-  const auto first = pick(state.scene, {view.eye, direction});
+  const auto first = pick_seen(state.scene, {view.eye, direction});
   under_ = first ? std::optional(first->object) : std::nullopt;
   grip_ = first ? view.eye + direction * first->distance : state.scene.camera.look_at;
 }
@@ -67,28 +107,39 @@ void ImageTool::drag(const ViewerState& state, const Rect& area, const Placement
   if (drag_ == Drag::orbit) {
     // Once across the picture's height is half a turn.
     const double angle = std::numbers::pi / std::min(place.rect.height, area.height);
-    edits.edit(state).camera = orbit(camera, grip_, -by.x * angle, -by.y * angle);
+    edits.edit(state).camera = approach_orbit(state.scene, grip_, -by.x * angle, -by.y * angle);
+    return;
+  }
+  const CameraView view(camera, state.scene.image);
+  const double pixel = view.pixel * state.scene.image.height / place.rect.height;  // of the window, at distance 1
+  if (drag_ == Drag::turn || flying()) {
+    // A picture that is turned follows the mouse; a view that flies looks where the mouse goes.
+    const double angle = flying() ? -pixel : pixel;
+    edits.edit(state).camera = approach_orbit(state.scene, camera.eye, by.x * angle, by.y * angle);
     return;
   }
   // So far that the point which was taken hold of stays under the mouse.
-  const CameraView view(camera, state.scene.image);
-  const double metres = view.depth(grip_) * view.pixel * state.scene.image.height / place.rect.height;
+  const double metres = view.depth(grip_) * pixel;
   const glm::dvec3 step = (view.right * static_cast<double>(by.x) - view.up * static_cast<double>(by.y)) * metres;
   if (drag_ == Drag::pan) {
-    edits.edit(state).camera = pan(camera, -step);
+    edits.edit(state).camera = approach(state.scene, pan(camera, -step));
   } else if (contains(state.scene, *under_)) {
-    edits.edit(state).spheres[under_->index].center += step;
-    grip_ += step;
+    Scene& scene = edits.edit(state);
+    move_sphere(scene, under_->index, step);
+    grip_ += scene.spheres[under_->index].center - state.scene.spheres[under_->index].center;
   }
 }
 
 void ImageTool::scroll(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl) {
+  if (flying()) {
+    pace_ = std::clamp(pace_ * std::pow(pace_step, static_cast<double>(io.MouseWheel)), least_pace, most_pace);
+  } else if (io.KeyCtrl) {
     const float zoom = std::clamp(place.zoom * std::pow(zoom_step, io.MouseWheel), least_zoom, most_zoom);
     zoom_ = zoomed(place, area, zoom, io.MousePos.x, io.MousePos.y);
   } else {
-    edits.edit(state).camera = dolly(state.scene.camera, std::pow(dolly_step, io.MouseWheel));
+    const Camera nearer = dolly(state.scene.camera, std::pow(dolly_step, io.MouseWheel));
+    edits.edit(state).camera = approach(state.scene, nearer);
   }
 }
 

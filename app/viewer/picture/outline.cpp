@@ -49,7 +49,7 @@ class Outline {
 
  private:
   bool is_hidden(const dvec3& point) const {
-    const auto first = pick(scene_, {view_.eye, point - view_.eye}, object_);
+    const auto first = pick_seen(scene_, {view_.eye, point - view_.eye}, object_);
     return first && first->distance < in_front;
   }
 

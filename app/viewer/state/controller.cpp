@@ -1,5 +1,6 @@
 #include "viewer/state/controller.h"
 
+#include <algorithm>
 #include <exception>
 #include <iterator>
 #include <regex>
@@ -9,6 +10,7 @@
 #include "film/file_bytes.h"
 #include "film/image_file.h"
 #include "scene/file/scene_file.h"
+#include "scene/surroundings.h"
 #include "viewer/chart_view/chart_export.h"
 
 namespace glimt {
@@ -26,6 +28,10 @@ std::string stem_of(const fs::path& file) {
   return is_picture(file) ? std::regex_replace(file.stem().string(), number, "") : file.stem().string();
 }
 
+bool is_black(const Frame& frame) {
+  return std::ranges::all_of(frame.mean.rgb, [](float value) { return value == 0; });
+}
+
 }  // namespace
 
 Controller::Controller(Scene scene, fs::path file, const std::function<void()>& wake, Execution execution)
@@ -36,8 +42,9 @@ Controller::Controller(Scene scene, fs::path file, const std::function<void()>& 
 }
 
 void Controller::recall(const Display& display, const ChartView& chart, fs::path folder, bool show_hint,
-                        const std::string& note) {
+                        const std::string& note, DragView drag_view) {
   state_.display = display;
+  state_.drag_view = drag_view;
   state_.chart.view = chart;
   if (!folder.empty()) state_.folder = std::move(folder);
   state_.hint = show_hint;
@@ -52,6 +59,7 @@ bool Controller::poll() {
   };
   if (auto frame = session_.frame(); frame != state_.frame && !(frame && outdated(*frame))) {
     state_.frame = std::move(frame);
+    state_.black = state_.frame && is_black(*state_.frame);
     if (state_.frame) posted_.erase(posted_.begin(), shown());
     if (state_.frame && shown()->second == now_) charting_.add(state_.frame);
     news = true;
@@ -101,6 +109,7 @@ void Controller::apply(const Edits& edits) {
     state_.compare = *edits.compare;
   }
   if (edits.inspect) state_.inspect = *edits.inspect;
+  if (edits.drag_view) state_.drag_view = *edits.drag_view;
   charting_.apply(edits.chart);
   export_chart(edits.chart);
   leave_machine_to_chart();
@@ -144,6 +153,7 @@ void Controller::show(std::shared_ptr<const Scene> scene, std::uint64_t gesture)
   state_.version = session_.post(*scene);
   state_.compiled = session_.compiled();
   state_.scene = *scene;
+  state_.enclosed = is_enclosed(*scene, scene->camera.eye);
   if (state_.selected && !contains(state_.scene, *state_.selected)) state_.selected.reset();
   if (state_.message.error) state_.message = {};
   posted_[state_.version] = scene;

@@ -26,7 +26,7 @@ class Controller {
   const ViewerState& state() const { return state_; }
   /// What the window remembers from its last start. To be called before the first edits.
   void recall(const Display& display, const ChartView& chart, std::filesystem::path folder, bool show_hint,
-              const std::string& note);
+              const std::string& note, DragView drag_view = DragView::automatic);
   /// Takes in finished frames and snapshots, and a scene file that has changed on disk; true where there was one.
   bool poll();
   /// Carries out edits. One that is refused, and a file that cannot be read, change nothing and say why in the message.

@@ -10,6 +10,7 @@
 #include "render/session.h"
 #include "scene/pick.h"
 #include "scene/scene.h"
+#include "viewer/state/camera_moves.h"
 #include "viewer/state/charting.h"
 #include "viewer/state/compare.h"
 
@@ -38,7 +39,15 @@ struct ViewerState {
   ChartState chart;
   Compare compare;
   bool inspect = false;  ///< the pixel under the mouse is told in numbers
+  DragView drag_view = DragView::automatic;
+  bool enclosed = false;  ///< the eye is in a closed room
+  bool black = false;     ///< all of the frame is
 };
+
+/// Whether a drag turns the view about the eye.
+inline bool drag_turns(const ViewerState& state) {
+  return state.drag_view == DragView::automatic ? state.enclosed : state.drag_view == DragView::turn;
+}
 
 /// What a person asked for while one picture of the window was drawn.
 struct Edits {
@@ -58,6 +67,7 @@ struct Edits {
   ChartEdits chart;
   std::optional<Compare> compare;
   std::optional<bool> inspect;
+  std::optional<DragView> drag_view;
   bool quit = false;
 
   /// The scene to write an edit into.

@@ -1,6 +1,7 @@
 #include "viewer/state/window_settings.h"
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -40,6 +41,12 @@ WindowSettings read_table(const toml::table& table) {
   bool by_samples = false;
   take(table, "chart_by_samples", by_samples);
   if (by_samples) settings.chart.across = Across::samples;
+  if (std::string drag_view; table.contains("drag_view")) {
+    take(table, "drag_view", drag_view);
+    const auto* const name = std::ranges::find(drag_view_names, drag_view);
+    if (name == drag_view_names.end()) throw std::runtime_error("drag_view is not one of auto, turn, orbit");
+    settings.drag_view = static_cast<DragView>(name - drag_view_names.begin());
+  }
   std::string folder;
   take(table, "folder", folder);
   settings.folder = folder;
@@ -75,6 +82,7 @@ void write_window_settings(const fs::path& file, const WindowSettings& settings)
   std::string text = "width = " + std::to_string(settings.width) + "\nheight = " + std::to_string(settings.height) +
                      "\nhint_seen = " + truth(settings.hint_seen) + "\nchart = " + truth(settings.chart.shown) +
                      "\nchart_by_samples = " + truth(settings.chart.across == Across::samples) +
+                     "\ndrag_view = " + toml_string(drag_view_names[static_cast<std::size_t>(settings.drag_view)]) +
                      "\nfolder = " + toml_string(settings.folder.string()) + "\n";
   for (const auto& [key, value] : display_texts(settings.display)) text += key + " = " + toml_string(value) + "\n";
   std::error_code failed;  // writing says what is wrong

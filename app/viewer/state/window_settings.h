@@ -4,6 +4,7 @@
 #include <string>
 
 #include "film/display.h"
+#include "viewer/state/camera_moves.h"
 #include "viewer/state/charting.h"
 
 namespace glimt {
@@ -15,6 +16,7 @@ struct WindowSettings {
   std::filesystem::path folder;  ///< last looked into for files; empty: the current one
   bool hint_seen = false;        ///< the line for a first start was read
   ChartView chart;
+  DragView drag_view = DragView::automatic;
 };
 
 /// glimt/window.toml in the user's configuration directory ($XDG_CONFIG_HOME, else ~/.config); empty where there is

@@ -23,6 +23,7 @@ constexpr std::array wordings{
     Wording{"eye", "Eye", "m"},
     Wording{"look_at", "Looks at", "m"},
     Wording{"fov_y", "Field of view", "\u00B0"},
+    Wording{"cutaway", "Outside view", ""},
     Wording{"target_error", "Error", ""},
     Wording{"image", "Image", ""},
     Wording{"error", "Standard error", ""},

@@ -18,8 +18,8 @@ struct Features {
   bool one_parallelogram;  ///< the only lamp
   bool oren_nayar;
   bool caustics;  ///< light paths or connections over spheres, or the setting is not `on`
-  bool rare;      ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON;
-                  ///< settings other than the defaults
+  bool rare;      ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON,
+                  ///< a cutaway; settings other than the defaults
 };
 
 /// A ray in compiled space; `direction` is of unit length.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/geometry/camera.h"
+#include "kernel/geometry/cutaway.h"
 #include "kernel/scattering/shading.h"
 #include "kernel/transport/path_sums.h"
 
@@ -63,7 +64,7 @@ class LampEdges {
   /// Of a lamp that the ray sees first.
   V emission(const V& direction) const {
     const Ray<F> ray{broadcast<F>(scene_.camera.eye), direction, I(-1)};
-    const Hit<F> hit = closest_hit<F, features>(scene_, ray);
+    const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, ray, F(0.0f) < F(1.0f));
     const Shading<F> at = surfaces_.shade(ray, hit);
     const M shines = (hit.t < F(std::numeric_limits<float>::infinity())) & equal(at.kind, I(kind_light)) & at.front;
     return select(shines, surfaces_.vector(Column::emission_r, at), V::all(F(0.0f)));

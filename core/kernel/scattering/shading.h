@@ -51,6 +51,8 @@ class Surfaces {
     const int c = static_cast<int>(first);
     return {value(first, at), value(static_cast<Column>(c + 1), at), value(static_cast<Column>(c + 2), at)};
   }
+  /// A plane or triangle, not a sphere.
+  M is_flat(const Shading<F>& at) const { return !(value(Column::inverse_radius, at) > F(0.0f)); }
   V reflectance(const Shading<F>& at) const { return vector(Column::reflectance_r, at); }
 
   Shading<F> shade(const Ray<F>& ray, const Hit<F>& hit) const {
@@ -74,7 +76,7 @@ class Surfaces {
   /// Whether some diffuse surface is not Lambertian.
   bool has_rough() const { return has_oren_nayar() || has_eon(); }
 
-  OrenNayarFactors<F> oren_nayar(const Shading<F>& at) const {
+  OrenNayar<F> oren_nayar(const Shading<F>& at) const {
     return {value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
             value(Column::oren_nayar_report, at) > F(0.5f)};
   }
@@ -86,8 +88,8 @@ class Surfaces {
   V diffuse_factor(const Shading<F>& at, const V& wi, const V& wo, F cos_i, F cos_o) const {
     const V rough = V::all(oren_nayar_factor(oren_nayar(at), wi, wo, cos_i, cos_o));
     if (!has_eon()) return rough;
-    const EonFactors<F> eon{value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
-                            vector(Column::eon_multiple_r, at)};
+    const Eon<F> eon{value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
+                     vector(Column::eon_multiple_r, at)};
     return select(value(Column::eon, at) > F(0.5f), eon_factor(eon, wi, wo, cos_i, cos_o), rough);
   }
 
@@ -142,7 +144,7 @@ inline bool has_usual_settings(const Settings& s) {
 template <class Function>
 void with_features(const CompiledScene& scene, Function f) {
   const bool rare = scene.has_glow || !scene.triangles.empty() || !scene.shells.empty() || scene.room_hides_lamps ||
-                    scene.has_eon || !has_usual_settings(scene.settings) ||
+                    scene.has_eon || scene.cutaway || !has_usual_settings(scene.settings) ||
                     std::any_of(scene.solids.begin(), scene.solids.end(), [](const Solid& s) { return s.glass; });
   const bool one = scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
   const bool caustics =

@@ -6,6 +6,7 @@
 #include "kernel/caustics/connect.h"
 #include "kernel/caustics/found_chain.h"
 #include "kernel/geometry/camera.h"
+#include "kernel/geometry/cutaway.h"
 #include "kernel/geometry/pinhole.h"
 #include "kernel/lamps/lamp_edges.h"
 #include "kernel/scattering/shading.h"
@@ -117,7 +118,7 @@ class PathTracer {
 
   /// One surface for every lane; returns the lanes whose paths end there.
   M step(PathState<F>& s) {
-    const Hit<F> hit = closest_hit<F, features>(scene_, s.ray);
+    const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, s.ray, equal(s.depth, I(0)));
     const M missed = !(hit.t < F(std::numeric_limits<float>::infinity()));
     const Shading<F> at = surfaces_.shade(s.ray, hit);
     const M light = equal(at.kind, I(kind_light));

@@ -74,33 +74,6 @@ TEST_F(ViewerEdit, ClickSelectsWhatIsSeenThere) {
   EXPECT_EQ(window.state().scene, scene) << "looking changes nothing";
 }
 
-TEST_F(ViewerEdit, DragOrbitsAboutThePointUnderTheMouse) {
-  Offscreen window(small_room(), window_width, window_height);
-  ASSERT_TRUE(window.draw_until_finished());
-  const Scene before = window.state().scene;
-  const CameraView was(before.camera, before.image);
-  const glm::dvec2 place = middle_of(before, "lambertian");
-  const glm::dvec3 direction = was.direction(place);
-  const glm::dvec3 pivot = was.eye + direction * pick(before, {was.eye, direction})->distance;
-
-  window.drag_in_image(static_cast<float>(place.x), static_cast<float>(place.y), 40, 12);
-  const Scene& after = window.state().scene;
-  EXPECT_NE(after.camera.eye, before.camera.eye);
-  EXPECT_NEAR(distance(after.camera.eye, pivot), distance(before.camera.eye, pivot), 1e-2);
-  const auto now = CameraView(after.camera, after.image).project(pivot);
-  ASSERT_TRUE(now);
-  EXPECT_LT(glm::distance(*now, place), 0.2) << "stays under the mouse, up to where the mouse can be put";
-  EXPECT_FALSE(window.state().selected) << "a drag is no click";
-  EXPECT_EQ(after.spheres, before.spheres);
-
-  window.screen().fit_picture();
-  Edits edits;
-  edits.undo = true;
-  window.apply(edits);
-  EXPECT_EQ(window.state().scene, before) << "the whole drag is one edit";
-  EXPECT_FALSE(window.state().can_undo);
-}
-
 TEST_F(ViewerEdit, MiddleDragPansAndTheWheelDollies) {
   Offscreen window(small_room(), window_width, window_height);
   ASSERT_TRUE(window.draw_until_finished());

@@ -39,6 +39,11 @@ std::vector<Scene> many_scenes() {
     settings.caustics = static_cast<Caustics>(seed % 5 != 4);
     settings.max_depth = seed % 6 == 5 ? 3 : 0;
   }
+  for (const char* name : {"report", "cornell"}) {
+    Scene& outside = scenes.emplace_back(from_file(name, 40, 30));
+    outside.camera.eye += 20.0 * glm::dvec3(-0.5, 0.6, 0.2);
+    outside.camera.cutaway = Cutaway::on;
+  }
   return scenes;
 }
 

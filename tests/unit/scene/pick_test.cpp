@@ -99,4 +99,18 @@ TEST(CameraView, ProjectsBackWhatItLooksAt) {
   EXPECT_FALSE(view.project(camera.eye - view.forward)) << "behind";
 }
 
+TEST(Pick, CutawayLooksThroughBacksThatAreNotGlass) {
+  Scene scene = three_things();
+  const Ray up{{2.2, 0.2, -5}, {0, 0, 1}}, from_ball{{0, 0, 2}, {0, 0, 1}};
+  EXPECT_EQ(pick_seen(scene, up)->object, wall) << "from behind";
+  scene.camera.cutaway = Cutaway::on;
+  EXPECT_FALSE(pick_seen(scene, up)) << "wall and triangle look the other way";
+  EXPECT_FALSE(pick_seen(scene, from_ball)) << "a ball's inside is its back";
+  EXPECT_EQ(pick_seen(scene, down(2.2, 0.2))->object, wedge);
+  EXPECT_EQ(pick_seen(scene, down(0, 0))->object, ball);
+  scene.materials = {{.name = "", .type = MaterialType::glass}};
+  EXPECT_EQ(pick_seen(scene, up)->object, wall);
+  EXPECT_EQ(pick_seen(scene, from_ball)->object, ball);
+}
+
 }  // namespace
