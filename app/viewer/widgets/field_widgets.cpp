@@ -44,7 +44,7 @@ bool end_field_row(const FieldText& field, bool changed) {
 
 /// printf format that shows a number with its unit; angles in degrees too.
 std::string format_of(const FieldText& field, double value) {
-  const auto unit = unit_of(field.key);
+  const auto unit = unit_of(field.key, field.doc);
   if (unit == "rad") {
     char degrees[32];
     std::snprintf(degrees, sizeof degrees, " (%.1f\u00B0)", glm::degrees(value));
@@ -107,7 +107,7 @@ bool edit_real(const FieldText& field, double& value) {
   begin_field_row(field);
   const double low = lowest(field), high = field.max;
   bool changed = false;
-  if (high - low > widest_real_slider && unit_of(field.key) != degree_sign) {
+  if (high - low > widest_real_slider && unit_of(field.key, field.doc) != degree_sign) {
     changed = drag_real(field, value);
   } else {
     changed = slider(value, low, high, format_of(field, value).c_str());

@@ -16,7 +16,6 @@ constexpr std::array wordings{
     Wording{"spp", "Samples / pixel", ""},
     Wording{"seed", "Random seed", ""},
     Wording{"ior", "Refractive index", ""},
-    Wording{"roughness", "Roughness", "rad"},
     Wording{"center", "Centre", "m"},
     Wording{"radius", "Radius", "m"},
     Wording{"size", "Size", "m"},
@@ -59,7 +58,8 @@ std::string sentence(std::string_view doc) {
   return text;
 }
 
-std::string_view unit_of(std::string_view key) {
+std::string_view unit_of(std::string_view key, std::string_view doc) {
+  if (doc.ends_with("radians")) return "rad";
   const Wording* known = wording(key);
   return known != nullptr ? known->unit : std::string_view();
 }

@@ -306,8 +306,9 @@ TEST(Labels, AreWords) {
   EXPECT_EQ(label_of("shadow_rays"), "Shadow rays");
   EXPECT_EQ(label_of("oren-nayar"), "Oren-Nayar");
   EXPECT_EQ(label_of("ior"), "Refractive index");
-  EXPECT_EQ(unit_of("roughness"), "rad");
-  EXPECT_EQ(unit_of("shadow_rays"), "");
+  EXPECT_EQ(unit_of("roughness", "slope angle, radians"), "rad");
+  EXPECT_EQ(unit_of("roughness", "from smooth to roughest"), "");
+  EXPECT_EQ(unit_of("radius", "radius, metres"), "m");
 }
 
 }  // namespace
