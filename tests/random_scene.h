@@ -59,12 +59,13 @@ class RandomScene {
   std::string add(Material m) {
     const auto index = static_cast<double>(scene.materials.size());
     m.name = "material " + std::to_string(scene.materials.size());
-    if (m.type == MaterialType::light) {
-      m.radiance.r = index + 1;
-    } else if (m.type == MaterialType::glass) {
-      m.ior = 1.2 + index / 64;
+    if (m.type == "light") {
+      const dvec3 radiance = m.get(Light::radiance);
+      m.set(Light::radiance, {index + 1, radiance.g, radiance.b});
+    } else if (m.type == "glass") {
+      m.set(Glass::ior, 1.2 + index / 64);
     } else {
-      m.reflectance = {(index + 1) / 256, number(0.2, 0.9), number(0, 1)};
+      m.set(Reflecting::reflectance, {(index + 1) / 256, number(0.2, 0.9), number(0, 1)});
     }
     scene.materials.push_back(m);
     return m.name;
@@ -73,13 +74,13 @@ class RandomScene {
     Material m;
     const unsigned kind = random_() % 8;
     if (kind < 3) {
-      m.type = MaterialType::oren_nayar;
-      m.roughness = number(0, 1);
-      m.formula = kind == 0 ? OrenNayarFormula::report : OrenNayarFormula::published;
+      m.type = "oren-nayar";
+      m.set(OrenNayar::roughness, number(0, 1));
+      m.set(OrenNayar::formula, kind == 0 ? OrenNayarFormula::report : OrenNayarFormula::published);
     } else if (kind == 3) {
-      m.type = MaterialType::mirror;
+      m.type = "mirror";
     }
-    if (kind % 4 == 2) m.emission = {number(0, 0.3), 0.1, 0};
+    if (kind % 4 == 2) m.set(Matt::emission, {number(0, 0.3), 0.1, 0});
     return add(m);
   }
   std::string any_glass() { return add(glass("", 1, random_() % 3 == 0 ? Fresnel::schlick : Fresnel::exact)); }

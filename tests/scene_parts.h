@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "material/list.h"
 #include "scene/scene.h"
 
 /// Pieces that test scenes are made of.
@@ -17,16 +18,28 @@ namespace glimt {
 using glm::dvec3;
 
 inline Material lambertian(std::string name, const dvec3& reflectance, const dvec3& emission = dvec3{0}) {
-  return {.name = std::move(name), .reflectance = reflectance, .emission = emission};
+  return Material{.name = std::move(name)}.with(Matt::reflectance, reflectance).with(Matt::emission, emission);
 }
 inline Material mirror(std::string name, const dvec3& reflectance) {
-  return {.name = std::move(name), .type = MaterialType::mirror, .reflectance = reflectance};
+  return Material{.name = std::move(name), .type = "mirror"}.with(Mirror::reflectance, reflectance);
 }
 inline Material glass(std::string name, double ior, Fresnel fresnel = Fresnel::exact) {
-  return {.name = std::move(name), .type = MaterialType::glass, .ior = ior, .fresnel = fresnel};
+  return Material{.name = std::move(name), .type = "glass"}.with(Glass::ior, ior).with(Glass::fresnel, fresnel);
 }
 inline Material light(std::string name, const dvec3& radiance) {
-  return {.name = std::move(name), .type = MaterialType::light, .radiance = radiance};
+  return Material{.name = std::move(name), .type = "light"}.with(Light::radiance, radiance);
+}
+inline Material oren_nayar(std::string name, double roughness, const dvec3& reflectance,
+                           OrenNayarFormula formula = OrenNayarFormula::published) {
+  return Material{.name = std::move(name), .type = "oren-nayar"}
+      .with(OrenNayar::roughness, roughness)
+      .with(OrenNayar::reflectance, reflectance)
+      .with(OrenNayar::formula, formula);
+}
+inline Material eon(std::string name, double roughness, const dvec3& reflectance) {
+  return Material{.name = std::move(name), .type = "eon"}
+      .with(Eon::roughness, roughness)
+      .with(Eon::reflectance, reflectance);
 }
 
 /// A square that shines down, of that edge, centred on the y axis.

@@ -12,16 +12,6 @@
 namespace glimt {
 namespace {
 
-bool is_rough(const Material& m) { return m.type == MaterialType::oren_nayar || m.type == MaterialType::eon; }
-bool is_exact_glass(const Material& m) { return m.type == MaterialType::glass && m.fresnel == Fresnel::exact; }
-
-/// The same scene with every material of a kind changed.
-Scene with_materials(Scene scene, bool (*is)(const Material&), void (*change)(Material&)) {
-  for (Material& material : scene.materials)
-    if (is(material)) change(material);
-  return scene;
-}
-
 /// Values of a numeric setting worth trying.
 std::vector<double> values_to_try(std::string_view key) {
   if (key == "shadow_rays") return {1, 2, 4, 8, 30};
@@ -55,15 +45,46 @@ struct AddPieces {
     }
   }
   template <class T>
-  void operator()(T Settings::*member) const {
+  void operator()(const Value<Settings, T>& setting) const {
     for (const double value : values_to_try(key)) {
-      if (scene.render.*member == static_cast<T>(value)) continue;
+      if (setting.get(scene.render) == static_cast<T>(value)) continue;
       Piece piece{words(key) + " " + number(value), key == "max_depth", scene};
-      piece.scene.render.*member = static_cast<T>(value);
+      setting.set(piece.scene.render, static_cast<T>(value));
       pieces.push_back(std::move(piece));
     }
   }
 };
+
+void set(const Field<Material>& field, Material& material, int value) {
+  if (const auto* choice = std::get_if<Choice<Material>>(&field.member))
+    choice->set(material, value);
+  else if (const auto* number = std::get_if<Value<Material, double>>(&field.member))
+    number->set(material, value);
+}
+
+/// The scene with that value in every material that reads the key, where this changes something.
+void add_material_piece(const Scene& scene, std::vector<Piece>& pieces, std::string_view key, std::string_view name,
+                        int value) {
+  Piece piece{words(key) + " " + std::string(name), true, scene};
+  for (Material& material : piece.scene.materials)
+    if (is_used(scene, material.name))
+      for (const auto& field : material_info(material.type).fields)
+        if (field.key == key) set(field, material, value);
+  if (piece.scene != scene && std::ranges::find(pieces, piece.name, &Piece::name) == pieces.end())
+    pieces.push_back(std::move(piece));
+}
+
+/// Every other choice that materials have, and 0 in place of their numbers.
+void add_material_pieces(const Scene& scene, std::vector<Piece>& pieces) {
+  for (const MaterialInfo& info : material_infos())
+    for (const auto& field : info.fields) {
+      if (const auto* choice = std::get_if<Choice<Material>>(&field.member))
+        for (std::size_t k = 0; k < choice->names.size(); ++k)
+          add_material_piece(scene, pieces, field.key, choice->names[k], static_cast<int>(k));
+      else if (std::holds_alternative<Value<Material, double>>(field.member) && field.min == 0 && !field.min_excluded)
+        add_material_piece(scene, pieces, field.key, "0", 0);
+    }
+}
 
 /// Renders both in turn, a part at a time, so that what else the machine does hits both alike. Returns the time of the
 /// first over that of the second.
@@ -103,12 +124,7 @@ Ablation summary(const Series& s) {
 
 std::vector<Piece> pieces_of(const Scene& scene) {
   std::vector<Piece> pieces;
-  if (has_material(scene, is_rough))
-    pieces.push_back({"Lambertian for rough materials", true,
-                      with_materials(scene, is_rough, [](Material& m) { m.type = MaterialType::lambertian; })});
-  if (has_material(scene, is_exact_glass))
-    pieces.push_back({"Schlick's Fresnel", true,
-                      with_materials(scene, is_exact_glass, [](Material& m) { m.fresnel = Fresnel::schlick; })});
+  add_material_pieces(scene, pieces);
   const bool caustics = has_specular(scene);
   for (const auto& field : settings_fields())
     if (caustics || !is_of_caustics(field.key)) std::visit(AddPieces{scene, pieces, field.key}, field.member);

@@ -7,6 +7,7 @@
 #include "chart/materials.h"
 #include "chart/relative_weights.h"
 #include "scene/camera_view.h"
+#include "scene/fields.h"
 #include "scene/pick.h"
 
 namespace glimt {

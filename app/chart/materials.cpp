@@ -2,18 +2,20 @@
 
 #include <algorithm>
 
+#include "scene/fields.h"
+
 namespace glimt {
 
-bool has_material(const Scene& scene, bool (*is)(const Material&)) {
+bool is_used(const Scene& scene, const std::string& material) {
   const auto used = [&](const auto& objects) {
-    return std::ranges::any_of(objects, [&](const auto& object) {
-      const Material* material = find_material(scene, object.material);
-      return material && is(*material);
-    });
+    return std::ranges::any_of(objects, [&](const auto& object) { return object.material == material; });
   };
   return used(scene.spheres) || used(scene.polygons) || used(scene.meshes);
 }
 
-bool has_specular(const Scene& scene) { return has_material(scene, is_specular); }
+bool has_specular(const Scene& scene) {
+  return std::ranges::any_of(scene.materials,
+                             [&](const Material& m) { return is_specular(m) && is_used(scene, m.name); });
+}
 
 }  // namespace glimt

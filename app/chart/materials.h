@@ -4,8 +4,8 @@
 
 namespace glimt {
 
-/// Whether an object of the scene has a material that `is` says yes to.
-bool has_material(const Scene& scene, bool (*is)(const Material&));
+/// Whether an object of the scene is made of the material.
+bool is_used(const Scene& scene, const std::string& material);
 
 /// Whether the scene has a mirror or glass.
 bool has_specular(const Scene& scene);

@@ -26,7 +26,7 @@ void print_list(const char* title, const std::vector<std::string>& lines) {
 template <class Objects>
 void add_lamps(const Scene& scene, const Objects& objects, const std::string& kind, std::vector<std::string>& lamps) {
   for (const auto& object : objects)
-    if (const Material* m = find_material(scene, object.material); m && m->type == MaterialType::light)
+    if (const Material* m = find_material(scene, object.material); m && is_lamp(*m))
       lamps.push_back(kind + (object.name.empty() ? "" : " \"" + object.name + "\"") + " of " + m->name);
 }
 
@@ -37,8 +37,7 @@ int run_info(const fs::path& file) {
   std::size_t triangles = 0;
   for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size();
   std::vector<std::string> materials, lamps;
-  for (const Material& m : scene.materials)
-    materials.push_back(m.name + ": " + std::string(material_info(m.type).name));
+  for (const Material& m : scene.materials) materials.push_back(m.name + ": " + m.type);
   add_lamps(scene, scene.spheres, "sphere", lamps);
   add_lamps(scene, scene.polygons, "polygon", lamps);
   add_lamps(scene, scene.meshes, "mesh", lamps);

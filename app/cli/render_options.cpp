@@ -29,14 +29,14 @@ struct AddSetting {
         ->check(CLI::IsMember(names))
         ->type_name("NAME");
   }
-  CLI::Option* operator()(int Settings::*) const {
+  CLI::Option* operator()(const Value<Settings, int>&) const {
     return add<int>([](int value) { return std::to_string(value); })
         ->check(CLI::Range(static_cast<int>(field.min), static_cast<int>(field.max)));
   }
-  CLI::Option* operator()(double Settings::*) const {
+  CLI::Option* operator()(const Value<Settings, double>&) const {
     return add<double>([](double value) { return number_text(value); })->check(CLI::Range(field.min, field.max));
   }
-  CLI::Option* operator()(glm::dvec3 Settings::*) const {
+  CLI::Option* operator()(const Value<Settings, glm::dvec3>&) const {
     return add<std::string>([](const std::string& value) { return value; })->type_name("[X,Y,Z]");
   }
 

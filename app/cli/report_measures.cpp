@@ -8,6 +8,8 @@
 #include "chart/runs.h"
 #include "cli/report_parts.h"
 #include "compile/compiled_scene.h"
+#include "material/glass.h"
+#include "material/oren_nayar.h"
 
 namespace glimt {
 namespace {
@@ -56,10 +58,10 @@ Piece changed(const Scene& scene, const std::string& name, bool model, void (*ch
 }
 
 void published_to_report(Scene& scene) {
-  for (Material& m : scene.materials) m.formula = OrenNayarFormula::report;
+  for (Material& m : scene.materials) m.set(OrenNayar::formula, OrenNayarFormula::report);
 }
 void exact_to_schlick(Scene& scene) {
-  for (Material& m : scene.materials) m.fresnel = Fresnel::schlick;
+  for (Material& m : scene.materials) m.set(Glass::fresnel, Fresnel::schlick);
 }
 void all_of_it(Scene& scene) {
   set_method(scene.render, Method::report);

@@ -6,6 +6,9 @@
 #include "cli/report_parts.h"
 #include "compile/compiled_scene.h"
 #include "film/statistics.h"
+#include "material/glass.h"
+#include "material/light.h"
+#include "material/oren_nayar.h"
 
 namespace glimt {
 namespace {
@@ -38,7 +41,8 @@ void set_lamp_side(Scene& scene, double side) {
   const glm::dvec3 middle = middle_of(lamp);
   const double scale = side / std::abs(lamp.vertices[1].x - lamp.vertices[0].x);
   for (auto& v : lamp.vertices) v = middle + scale * (v - middle);
-  material(scene, "lamp").radiance /= scale * scale;
+  Material& light = material(scene, "lamp");
+  light.set(Light::radiance, light.get(Light::radiance) / (scale * scale));
 }
 
 /// The sphere, made smaller, under the lamp with that gap between them.
@@ -48,12 +52,12 @@ void set_gap(Scene& scene, double gap) {
   sphere.center = middle_of(lamp_of(scene)) - glm::dvec3{0, sphere.radius + gap, 0};
 }
 
-void set_roughness(Scene& scene, double roughness) { material(scene, "clay").roughness = roughness; }
-void set_ior(Scene& scene, double ior) { material(scene, "glass").ior = ior; }
+void set_roughness(Scene& scene, double roughness) { material(scene, "clay").set(OrenNayar::roughness, roughness); }
+void set_ior(Scene& scene, double ior) { material(scene, "glass").set(Glass::ior, ior); }
 
 void set_reflectance(Scene& scene, double reflectance) {
   for (Material& m : scene.materials)
-    if (is_diffuse(m.type)) m.reflectance = glm::dvec3{reflectance};
+    if (is_diffuse(m)) m.set(Matt::reflectance, glm::dvec3{reflectance});
 }
 
 const std::vector<Difficulty>& difficulties() {

@@ -16,13 +16,13 @@ struct ValueJson {
   Json operator()(const Choice<Settings>& choice) const {
     return choice.names[static_cast<std::size_t>(choice.get(settings))];
   }
-  Json operator()(glm::dvec3 Settings::*member) const {
-    const glm::dvec3& v = settings.*member;
+  Json operator()(const Value<Settings, glm::dvec3>& vector) const {
+    const glm::dvec3 v = vector.get(settings);
     return {v.x, v.y, v.z};
   }
   template <class T>
-  Json operator()(T Settings::*member) const {
-    return settings.*member;
+  Json operator()(const Value<Settings, T>& number) const {
+    return number.get(settings);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "compile/lowering.h"
+#include "material/list.h"
 #include "scene/file/scene_file.h"
 #include "scene/validate/validate.h"
 
@@ -135,7 +136,7 @@ void lower_polygon(Lowering& l, const Polygon& polygon) {
 
 void lower_sphere(Lowering& l, const Sphere& sphere) {
   const Material& material = l.material(sphere.material);
-  const bool glass = material.type == MaterialType::glass;
+  const bool glass = transmits(material);
   const dvec3 c = sphere.center - l.origin;
   const int surface = l.add_surface({&material, c, 1 / sphere.radius, glass ? relative_ior(l.scene, sphere) : 1});
   const auto f = to_floats(c);
@@ -144,26 +145,22 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   add_target(l, material, {c, sphere.radius}, surface, surface);
   if (is_specular(material) && (glass || !around)) l.specular_spheres.push_back({&sphere, surface});
-  if (material.type == MaterialType::light && !around)
+  if (is_lamp(material) && !around)
     l.lamps.push_back(
         {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
          c,
          dvec3{sphere.radius, 0, 0},
          {},
          {},
-         material.radiance,
+         material_info(material.type).radiance(material),
          surface,
          surface});
 }
 
-/// A of the FON model (Portsmouth, Kutz and Hill 2025).
-double eon_a(double roughness) { return 1 / (1 + (0.5 - 2 / (3 * std::numbers::pi)) * roughness); }
-
-/// With E the mean albedo of the FON model: light that is reflected again and again comes to rho^2 E / (1 - rho (1 -
-/// E)) of a share 1 - E lost by each side (the same paper); here over rho, which the path's throughput holds already.
-dvec3 eon_multiple(const Material& m) {
-  const double mean = eon_a(m.eon_roughness) * (1 + (2.0 / 3 - 28 / (15 * std::numbers::pi)) * m.eon_roughness);
-  return m.reflectance * mean / ((1.0 - m.reflectance * (1 - mean)) * (1 - mean));
+std::int32_t kind_of(const MaterialInfo& info) {
+  if (info.emits) return kind_light;
+  if (info.transmits) return kind_glass;
+  return info.lobe_class == LobeClass::delta ? kind_mirror : kind_diffuse;
 }
 
 void fill_surfaces(Lowering& l) {
@@ -172,32 +169,29 @@ void fill_surfaces(Lowering& l) {
     const Surface& s = l.surfaces[i];
     const Material& m = *s.material;
     const TableRow<Column> row{table, i};
-    const bool light = m.type == MaterialType::light;
-    const bool glass = m.type == MaterialType::glass;
-    const bool rough = m.type == MaterialType::oren_nayar && m.roughness > 0;
-    const bool mirror = m.type == MaterialType::mirror;
-    const std::int32_t kind = light ? kind_light : glass ? kind_glass : mirror ? kind_mirror : kind_diffuse;
-    const dvec3 emission = light ? m.radiance : glass || mirror ? dvec3{0} : m.emission;
-    const double sigma2 = rough ? m.roughness * m.roughness : 0;
-    const bool eon = m.type == MaterialType::eon && m.eon_roughness > 0;
+    const MaterialInfo& info = material_info(m.type);
+    const std::int32_t kind = kind_of(info);
+    const dvec3 radiance = info.radiance(m);
+    const SurfaceRow own = lower(m);
     row.set3(Column::normal_x, s.normal_or_center);
     row.set(Column::inverse_radius, s.inverse_radius);
     row.set_int(Column::kind, kind);
-    row.set3(Column::reflectance_r, light ? dvec3{0} : glass ? dvec3{1} : m.reflectance);
-    row.set3(Column::emission_r, emission);
-    row.set(Column::oren_nayar_a, eon ? eon_a(m.eon_roughness) : 1 - sigma2 / (2 * (sigma2 + 0.33)));
-    row.set(Column::oren_nayar_b, eon ? m.eon_roughness : 0.45 * sigma2 / (sigma2 + 0.09));
-    row.set(Column::eon, eon ? 1 : 0);
-    if (eon) row.set3(Column::eon_multiple_r, eon_multiple(m));
-    row.set(Column::oren_nayar_report, m.formula == OrenNayarFormula::report ? 1 : 0);
+    row.set3(Column::reflectance_r, info.albedo(m));
+    row.set3(Column::emission_r, radiance);
+    row.set(Column::oren_nayar_a, own.oren_nayar_a);
+    row.set(Column::oren_nayar_b, own.oren_nayar_b);
+    row.set(Column::oren_nayar_report, own.oren_nayar_report ? 1 : 0);
+    row.set(Column::eon, own.eon ? 1 : 0);
+    row.set3(Column::eon_multiple_r, own.eon_multiple);
     row.set(Column::eta, s.eta);
-    row.set(Column::schlick, m.fresnel == Fresnel::schlick ? 1 : 0);
-    l.out.has_mirror |= mirror;
-    l.out.has_glass |= glass;
-    l.out.has_oren_nayar |= rough;
-    l.out.has_eon |= eon;
-    l.out.has_glow |= !light && emission != dvec3{0};
-    l.out.max_radiance = std::max({l.out.max_radiance, emission.r, emission.g, emission.b});
+    row.set(Column::schlick, own.schlick ? 1 : 0);
+    if (info.lobe_class != LobeClass::cosine || own != SurfaceRow{}) l.features.insert(info.feature);
+    l.out.has_mirror |= kind == kind_mirror;
+    l.out.has_glass |= kind == kind_glass;
+    l.out.has_oren_nayar |= own.oren_nayar_b != 0 && !own.eon;
+    l.out.has_eon |= own.eon;
+    l.out.has_glow |= !info.emits && radiance != dvec3{0};
+    l.out.max_radiance = std::max({l.out.max_radiance, radiance.r, radiance.g, radiance.b});
   }
   l.out.surfaces = std::move(table);
 }
@@ -215,10 +209,9 @@ void describe(Lowering& l) {
   count(out.chain_spheres.size(), "sphere that caustics are connected over",
         "spheres that caustics are connected over");
   count(static_cast<std::size_t>(out.lamps.rows()), "piece of a lamp", "pieces of lamps");
-  auto feature = [&](bool used, const char* what) { (used ? out.compiled_in : out.left_out).emplace_back(what); };
-  feature(out.has_mirror, "mirror reflection");
-  feature(out.has_glass, "glass");
-  feature(out.has_oren_nayar, "Oren-Nayar");
+  auto feature = [&](bool used, std::string_view what) { (used ? out.compiled_in : out.left_out).emplace_back(what); };
+  for (const MaterialInfo& info : material_infos())
+    if (!info.feature.empty()) feature(l.features.contains(info.feature), info.feature);
   feature(out.has_glow, "glowing surfaces");
   if (out.cutaway) out.compiled_in.emplace_back("a cutaway, and so caustics by chance alone");
   if (!out.room.empty() && !out.room_hides_lamps) out.left_out.emplace_back("shadow tests against the room");
@@ -229,7 +222,7 @@ void describe(Lowering& l) {
 CompiledScene compile(const Scene& scene) {
   if (const std::vector<Problem> problems = validate(scene); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
-  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}};
+  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;

@@ -50,7 +50,7 @@ void lower_chains(Lowering& l) {
   std::vector<ChainSphere>& chains = l.out.chain_spheres;
   for (const auto& [sphere, surface] : l.specular_spheres) {
     const Material& m = l.material(sphere->material);
-    const bool glass = m.type == MaterialType::glass;
+    const bool glass = transmits(m);
     if (is_in_room(l, *sphere))
       chains.push_back({to_floats(sphere->center - l.origin), static_cast<float>(sphere->radius), surface,
                         glass && is_empty(l, *sphere)});

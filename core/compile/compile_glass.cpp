@@ -30,13 +30,15 @@ std::vector<dvec3> surface_points(const Sphere& s) {
   return points;
 }
 
+double refractive_index(const Material& m) { return material_info(m.type).refractive_index(m); }
+
 double surrounding_ior(const Scene& scene, const std::vector<dvec3>& points, const void* self) {
   double ior = 1, smallest = std::numeric_limits<double>::infinity();
   auto consider = [&](const std::string& material, double volume, auto inside) {
     const Material& m = scene.materials[static_cast<std::size_t>(material_index(scene, material))];
-    if (m.type != MaterialType::glass || volume >= smallest || !holds_most(points, inside)) return;
+    if (!transmits(m) || volume >= smallest || !holds_most(points, inside)) return;
     smallest = volume;
-    ior = m.ior;
+    ior = refractive_index(m);
   };
   for (const Sphere& s : scene.spheres)
     if (&s != self)
@@ -52,14 +54,15 @@ double surrounding_ior(const Scene& scene, const std::vector<dvec3>& points, con
 }  // namespace
 
 double relative_ior(const Scene& scene, const Sphere& sphere) {
-  return find_material(scene, sphere.material)->ior / surrounding_ior(scene, surface_points(sphere), &sphere);
+  return refractive_index(*find_material(scene, sphere.material)) /
+         surrounding_ior(scene, surface_points(sphere), &sphere);
 }
 
 double relative_ior(const Scene& scene, const Mesh& mesh) {
   // The mesh may be a copy; its like in the scene has its name, which may be none, and its vertices.
   const auto self = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                  [&](const Mesh& m) { return m.name == mesh.name && m.vertices == mesh.vertices; });
-  return find_material(scene, mesh.material)->ior / surrounding_ior(scene, mesh.vertices, &*self);
+  return refractive_index(*find_material(scene, mesh.material)) / surrounding_ior(scene, mesh.vertices, &*self);
 }
 
 }  // namespace glimt

@@ -13,10 +13,11 @@ using glm::dvec3;
 
 void add_flat_lamp(Lowering& l, const std::vector<dvec3>& v, const dvec3& normal, const Material& material,
                    int first_surface, int last_surface) {
-  if (material.type != MaterialType::light) return;
+  if (!is_lamp(material)) return;
   const bool by_solid_angle = l.scene.render.light_sampling == LightSampling::solid_angle;
+  const dvec3 radiance = material_info(material.type).radiance(material);
   auto add = [&](LampShape shape, const dvec3& e1, const dvec3& e2) {
-    l.lamps.push_back({shape, v[0], e1, e2, normal, material.radiance, first_surface, last_surface});
+    l.lamps.push_back({shape, v[0], e1, e2, normal, radiance, first_surface, last_surface});
   };
   if (is_parallelogram(v)) {
     const dvec3 e1 = v[1] - v[0], e2 = v[3] - v[0];

@@ -41,12 +41,12 @@ std::vector<HalfSpace> convex_planes(const Mesh& mesh) {
 bool lower_convex(Lowering& l, const Mesh& mesh, const Material& material, double eta, int first_surface) {
   const std::vector<HalfSpace> planes = convex_planes(mesh);
   if (planes.empty()) return false;
-  const bool glass = material.type == MaterialType::glass;
+  const bool glass = transmits(material);
   const auto& inside = l.reach.inside;
   const bool around =
       inside && std::ranges::all_of(planes, [&](const HalfSpace& h) { return dot(h.n, *inside) < h.d; });
-  if (around && !glass) return false;  // opaque solids of planes are hit from outside only
-  if (material.type == MaterialType::light && signed_volume(mesh) < 0) return false;  // shines inwards
+  if (around && !glass) return false;                              // opaque solids of planes are hit from outside only
+  if (is_lamp(material) && signed_volume(mesh) < 0) return false;  // shines inwards
 
   Solid solid{static_cast<int>(l.out.solid_planes.size()), 0, first_surface, 0, glass};
   for (const HalfSpace& h : planes) {
@@ -68,7 +68,7 @@ bool lower_convex(Lowering& l, const Mesh& mesh, const Material& material, doubl
 }
 
 void lower_triangles(Lowering& l, const Mesh& mesh, const Material& material, double eta) {
-  const bool inside_out = material.type == MaterialType::glass && signed_volume(mesh) < 0;
+  const bool inside_out = transmits(material) && signed_volume(mesh) < 0;
   for (const auto& t : mesh.triangles) {
     const std::vector<dvec3> v = triangle_vertices(mesh, t);
     const dvec3 n = plane_of(v).n * (inside_out ? -1.0 : 1.0);
@@ -83,7 +83,7 @@ void lower_triangles(Lowering& l, const Mesh& mesh, const Material& material, do
 void lower_meshes(Lowering& l) {
   for (const Mesh& mesh : l.reach.meshes) {
     const Material& material = l.material(mesh.material);
-    const double eta = material.type == MaterialType::glass ? relative_ior(l.scene, mesh) : 1;
+    const double eta = transmits(material) ? relative_ior(l.scene, mesh) : 1;
     const int first_surface = static_cast<int>(l.surfaces.size());
     const bool convex = lower_convex(l, mesh, material, eta, first_surface);
     if (!convex) lower_triangles(l, mesh, material, eta);

@@ -30,7 +30,10 @@ constexpr std::size_t most_pairs = 1u << 18;
 
 const Material& material_of(const Lowering& l, int index) { return l.scene.materials[static_cast<std::size_t>(index)]; }
 
-double brightest(const Material& m) { return std::max({m.reflectance.r, m.reflectance.g, m.reflectance.b}); }
+double brightest(const Material& m) {
+  const dvec3 albedo = material_info(m.type).albedo(m);
+  return std::max({albedo.r, albedo.g, albedo.b});
+}
 
 /// A flat or round piece of what is in reach, in world space.
 struct Piece {
@@ -109,7 +112,7 @@ void warn_of_near_lamps(Lowering& l, const std::vector<Piece>& pieces) {
     if (lamp.shape == LampShape::sphere || lamp.shape == LampShape::rectangle) continue;
     const double limit = near_lamp * std::sqrt(area_of(lamp));
     for (const Piece& piece : pieces) {
-      if (!is_diffuse(piece.material->type) || brightest(*piece.material) == 0 ||
+      if (!is_diffuse(*piece.material) || brightest(*piece.material) == 0 ||
           lit_distance(lamp, l.origin, piece, limit) > limit)
         continue;
       l.out.warnings.push_back(
@@ -135,7 +138,7 @@ void warn_of_tiny_lamps(Lowering& l, const std::vector<Piece>& pieces) {
 void warn_of_roulette(Lowering& l) {
   if (l.out.settings.roulette == Roulette::constant) {
     const bool bright = std::any_of(l.surfaces.begin(), l.surfaces.end(), [](const Surface& s) {
-      return is_diffuse(s.material->type) && brightest(*s.material) > constant_limit;
+      return is_diffuse(*s.material) && brightest(*s.material) > constant_limit;
     });
     if (bright)
       l.out.warnings.emplace_back(
@@ -150,7 +153,7 @@ void warn_of_roulette(Lowering& l) {
     const Material& m = material_of(l, face.material);
     const double area = glimt::area_of(face.outline);
     all += area;
-    if (m.type != MaterialType::light) reflected += brightest(m) * area;
+    reflected += brightest(m) * area;
   }
   if (reflected > throughput_limit * all)
     l.out.warnings.emplace_back(

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <bit>
+#include <set>
 
 #include "compile/compiled_scene.h"
 #include "compile/reach.h"
+#include "scene/fields.h"
 
 /// The parts of compile(): each lowers one kind of object into `out`.
 namespace glimt {
@@ -50,6 +52,7 @@ struct Lowering {
   std::vector<LampPiece> lamps;
   std::vector<Target> targets;
   std::vector<SpecularSphere> specular_spheres;
+  std::set<std::string_view> features;  ///< MaterialInfo::feature of what is in use
   CompiledScene out;
 
   const Material& material(const std::string& name) const {

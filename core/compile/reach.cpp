@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "scene/fields.h"
 #include "scene/file/text.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/surroundings.h"
@@ -29,7 +30,7 @@ std::vector<Face> faces_of(const Scene& scene) {
   for (const Mesh& m : scene.meshes) {
     const int material = material_index(scene, m.material);
     if (m.triangles.size() <= max_room_mesh_triangles &&
-        scene.materials[static_cast<std::size_t>(material)].type != MaterialType::glass)
+        !transmits(scene.materials[static_cast<std::size_t>(material)]))
       for (const auto& t : m.triangles) faces.push_back({triangle_vertices(m, t), material});
   }
   return faces;
@@ -43,7 +44,7 @@ bool is_outside(const Scene& scene, const std::vector<Face>& faces, double toler
   if (!find_room(faces, *place, tolerance).empty()) return true;
   return std::ranges::any_of(scene.spheres, [&](const Sphere& s) {
     return s.radius > length(*place - s.center) && s.radius < length(eye - s.center) &&
-           find_material(scene, s.material)->type != MaterialType::glass;
+           !transmits(*find_material(scene, s.material));
   });
 }
 
@@ -93,7 +94,7 @@ Reach find_reach(const Scene& scene) {
         "with camera.cutaway = \"on\"");
 
   auto is_light = [&](const std::string& material) {
-    return scene.materials[static_cast<std::size_t>(material_index(scene, material))].type == MaterialType::light;
+    return is_lamp(scene.materials[static_cast<std::size_t>(material_index(scene, material))]);
   };
   auto leave_out = [&](const auto& object, bool in_wall) {
     reach.left_out.push_back(toml_string(object.name) +

@@ -91,16 +91,13 @@ constexpr std::array<std::string_view, 3> view_names{"image", "error", "samples"
 constexpr std::array<std::string_view, 2> dither_names{"on", "off"};
 
 const std::array<Field<Display>, 4> display_table{{
-    {"exposure", "brightness of the picture: 1 EV more is twice as bright", &Display::exposure, -32, 32},
+    {"exposure", "brightness of the picture: 1 EV more is twice as bright", value<&Display::exposure>(), -32, 32},
     {"tone", "how bright values are brought into range: linear and clipped, or with a film's soft shoulder",
-     Choice<Display>{tone_names, [](const Display& d) { return static_cast<int>(d.tone); },
-                     [](Display& d, int value) { d.tone = static_cast<Tone>(value); }}},
+     choice<&Display::tone>(tone_names)},
     {"view", "what is shown: the image, its standard error, or the number of samples per pixel",
-     Choice<Display>{view_names, [](const Display& d) { return static_cast<int>(d.view); },
-                     [](Display& d, int value) { d.view = static_cast<View>(value); }}},
+     choice<&Display::view>(view_names)},
     {"dither", "hides the bands of 8-bit colours in a fine pattern of neighbouring shades",
-     Choice<Display>{dither_names, [](const Display& d) { return static_cast<int>(d.dither); },
-                     [](Display& d, int value) { d.dither = static_cast<Dither>(value); }}},
+     choice<&Display::dither>(dither_names)},
 }};
 
 float filmic(float x) {
@@ -137,7 +134,7 @@ std::map<std::string, std::string> display_texts(const Display& display) {
   for (const auto& field : display_table) {
     const auto* choice = std::get_if<Choice<Display>>(&field.member);
     texts[std::string(field.key)] = choice ? std::string(choice->names[static_cast<std::size_t>(choice->get(display))])
-                                           : number_text(display.*std::get<double Display::*>(field.member));
+                                           : number_text(std::get<Value<Display, double>>(field.member).get(display));
   }
   return texts;
 }
@@ -155,7 +152,7 @@ Display read_display(const std::map<std::string, std::string>& texts) {
       double value = 0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
       if (error == std::errc{} && value >= field.min && value <= field.max)
-        display.*std::get<double Display::*>(field.member) = value;
+        std::get<Value<Display, double>>(field.member).set(display, value);
     }
   }
   return display;

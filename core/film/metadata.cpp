@@ -13,15 +13,15 @@ struct ValueText {
   std::string operator()(const Choice<Settings>& choice) const {
     return std::string(choice.names[static_cast<std::size_t>(choice.get(settings))]);
   }
-  std::string operator()(glm::dvec3 Settings::*member) const {
-    const glm::dvec3& v = settings.*member;
+  std::string operator()(const Value<Settings, glm::dvec3>& vector) const {
+    const glm::dvec3 v = vector.get(settings);
     std::string text = "[";
     for (int c = 0; c < 3; ++c) text += number_text(v[c]) + (c < 2 ? ", " : "]");
     return text;
   }
   template <class T>
-  std::string operator()(T Settings::*member) const {
-    return number_text(settings.*member);
+  std::string operator()(const Value<Settings, T>& number) const {
+    return number_text(number.get(settings));
   }
 };
 

@@ -1,8 +1,6 @@
 #include "scene/fields.h"
 
-#include <algorithm>
 #include <array>
-#include <numbers>
 
 namespace glimt {
 namespace {
@@ -13,34 +11,14 @@ constexpr std::array<std::string_view, 5> sampler_names{"independent", "stratifi
 constexpr std::array<std::string_view, 2> switch_names{"off", "on"};
 constexpr std::array<std::string_view, 3> caustics_names{"off", "on", "only"};
 constexpr std::array<std::string_view, 2> roulette_names{"throughput", "constant"};
-constexpr std::array<std::string_view, 2> formula_names{"published", "report"};
-constexpr std::array<std::string_view, 2> fresnel_names{"exact", "schlick"};
-
-template <class T>
-struct MemberOf;
-template <class T, class E>
-struct MemberOf<E T::*> {
-  using Object = T;
-  using Enum = E;
-};
-
-template <auto member>
-constexpr auto choice(std::span<const std::string_view> names) {
-  using Object = typename MemberOf<decltype(member)>::Object;
-  using Enum = typename MemberOf<decltype(member)>::Enum;
-  return Choice<Object>{names, [](const Object& object) { return static_cast<int>(object.*member); },
-                        [](Object& object, int value) { object.*member = static_cast<Enum>(value); }};
-}
-
-constexpr double max_radiance = 1e9;
 
 // The method comes before what it sets, so that what a file or command line says beside it holds.
 const std::array<Field<Settings>, 16> settings_table{{
-    {"spp", "samples per pixel to stop at", &Settings::spp, 1, max_spp},
+    {"spp", "samples per pixel to stop at", value<&Settings::spp>(), 1, max_spp},
     {"target_error", "estimated relative mean squared error to stop at in place of spp; 0: stop at spp",
-     &Settings::target_error, 0, 1e6},
-    {"shadow_rays", "shadow rays per diffuse hit", &Settings::shadow_rays, 1, 64},
-    {"seed", "seed of the random numbers", &Settings::seed, 0, 2147483647},
+     value<&Settings::target_error>(), 0, 1e6},
+    {"shadow_rays", "shadow rays per diffuse hit", value<&Settings::shadow_rays>(), 1, 64},
+    {"seed", "seed of the random numbers", value<&Settings::seed>(), 0, 2147483647},
     {"method",
      "what the settings below begin from: path, the best measured; naive, lamps by chance; the course report's",
      Choice<Settings>{method_names, [](const Settings& s) { return static_cast<int>(s.method); },
@@ -52,10 +30,10 @@ const std::array<Field<Settings>, 16> settings_table{{
      choice<&Settings::mis>(switch_names)},
     {"roulette", "probability of survival: the path's throughput, or constant 0.75 at diffuse hits",
      choice<&Settings::roulette>(roulette_names)},
-    {"roulette_depth", "surface hits before roulette by throughput begins", &Settings::roulette_depth, 0, 64},
+    {"roulette_depth", "surface hits before roulette by throughput begins", value<&Settings::roulette_depth>(), 0, 64},
     {.key = "roulette_below",
      .doc = "throughput below which it is played, with the chance throughput / roulette_below",
-     .member = &Settings::roulette_below,
+     .member = value<&Settings::roulette_below>(),
      .min = 0,
      .max = 1,
      .min_excluded = true},
@@ -64,35 +42,36 @@ const std::array<Field<Settings>, 16> settings_table{{
     {"caustics", "light that reaches a diffuse surface by way of mirrors or glass: off, on, or nothing else",
      choice<&Settings::caustics>(caustics_names)},
     {"light_paths", "paths from lamps to mirrors and glass for each path from the camera; 0: caustics by chance alone",
-     &Settings::light_paths, 0, 16},
+     value<&Settings::light_paths>(), 0, 16},
     {"sphere_connections", "caustics seen in mirrors and through glass: connections to lamps over single spheres",
      choice<&Settings::sphere_connections>(switch_names)},
     {"path_sharing", "the four pixels of a square share the ends of their paths",
      choice<&Settings::path_sharing>(switch_names)},
-    {"max_depth", "surfaces that a path may meet, its lamp included; 0 for no limit", &Settings::max_depth, 0, 1000},
+    {"max_depth", "surfaces that a path may meet, its lamp included; 0 for no limit", value<&Settings::max_depth>(), 0,
+     1000},
 }};
 
 const std::array<Field<Camera>, 5> camera_table{{
     {.key = "eye",
      .doc = "position, metres",
-     .member = &Camera::eye,
+     .member = value<&Camera::eye>(),
      .min = -max_coordinate,
      .max = max_coordinate,
      .required = true},
     {.key = "look_at",
      .doc = "point in the middle of the image, metres",
-     .member = &Camera::look_at,
+     .member = value<&Camera::look_at>(),
      .min = -max_coordinate,
      .max = max_coordinate,
      .required = true},
     {.key = "up",
      .doc = "direction that is up in the image",
-     .member = &Camera::up,
+     .member = value<&Camera::up>(),
      .min = -max_coordinate,
      .max = max_coordinate},
     {.key = "fov_y",
      .doc = "vertical field of view, degrees",
-     .member = &Camera::fov_y,
+     .member = value<&Camera::fov_y>(),
      .min = 0.001,
      .max = 179,
      .required = true},
@@ -102,77 +81,34 @@ const std::array<Field<Camera>, 5> camera_table{{
 }};
 
 const std::array<Field<ImageSize>, 2> image_table{{
-    {.key = "width", .doc = "width, pixels", .member = &ImageSize::width, .min = 1, .max = 16384, .required = true},
-    {.key = "height", .doc = "height, pixels", .member = &ImageSize::height, .min = 1, .max = 16384, .required = true},
+    {.key = "width",
+     .doc = "width, pixels",
+     .member = value<&ImageSize::width>(),
+     .min = 1,
+     .max = 16384,
+     .required = true},
+    {.key = "height",
+     .doc = "height, pixels",
+     .member = value<&ImageSize::height>(),
+     .min = 1,
+     .max = 16384,
+     .required = true},
 }};
 
 const std::array<Field<Sphere>, 2> sphere_table{{
     {.key = "center",
      .doc = "centre, metres",
-     .member = &Sphere::center,
+     .member = value<&Sphere::center>(),
      .min = -max_coordinate,
      .max = max_coordinate,
      .required = true},
     {.key = "radius",
      .doc = "radius, metres",
-     .member = &Sphere::radius,
+     .member = value<&Sphere::radius>(),
      .min = 0,
      .max = max_coordinate,
      .min_excluded = true,
      .required = true},
-}};
-
-const Field<Material> reflectance{.key = "reflectance",
-                                  .doc = "share of the light that is reflected, per channel",
-                                  .member = &Material::reflectance,
-                                  .min = 0,
-                                  .max = 1,
-                                  .required = true};
-const Field<Material> roughness{.key = "roughness",
-                                .doc = "standard deviation of the facets' slope angle, radians",
-                                .member = &Material::roughness,
-                                .min = 0,
-                                .max = std::numbers::pi / 2,
-                                .required = true};
-const Field<Material> formula{.key = "formula",
-                              .doc = "form of the Oren-Nayar model: as published, or as the report prints it",
-                              .member = choice<&Material::formula>(formula_names)};
-const Field<Material> ior{.key = "ior",
-                          .doc = "absolute refractive index",
-                          .member = &Material::ior,
-                          .min = 0,
-                          .max = 10,
-                          .min_excluded = true,
-                          .required = true};
-const Field<Material> fresnel{.key = "fresnel",
-                              .doc = "reflected share: exact, or Schlick's approximation",
-                              .member = choice<&Material::fresnel>(fresnel_names)};
-const Field<Material> radiance{.key = "radiance",
-                               .doc = "emitted from the front side, W/(m^2 sr)",
-                               .member = &Material::radiance,
-                               .min = 0,
-                               .max = max_radiance,
-                               .required = true};
-const Field<Material> emission{.key = "emission",
-                               .doc = "glow, not sampled as a lamp, W/(m^2 sr)",
-                               .member = &Material::emission,
-                               .min = 0,
-                               .max = max_radiance};
-
-const Field<Material> eon_roughness{.key = "roughness",
-                                    .doc = "of the surface, from smooth to roughest",
-                                    .member = &Material::eon_roughness,
-                                    .min = 0,
-                                    .max = 1,
-                                    .required = true};
-
-const std::array<MaterialInfo, 6> material_table{{
-    {MaterialType::lambertian, "lambertian", "matt, equally bright from everywhere", {reflectance, emission}},
-    {MaterialType::oren_nayar, "oren-nayar", "rough and matt, like clay", {reflectance, roughness, formula, emission}},
-    {MaterialType::eon, "eon", "rough and matt, keeping all energy", {reflectance, eon_roughness, emission}},
-    {MaterialType::mirror, "mirror", "perfect mirror", {reflectance}},
-    {MaterialType::glass, "glass", "smooth and clear, for closed shapes", {ior, fresnel}},
-    {MaterialType::light, "light", "lamp that reflects nothing", {radiance}},
 }};
 
 }  // namespace
@@ -199,13 +135,8 @@ void set_method(Settings& settings, Method method) {
 }
 
 std::span<const Field<Settings>> settings_fields() { return settings_table; }
-std::span<const MaterialInfo> material_infos() { return material_table; }
 std::span<const Field<Camera>> camera_fields() { return camera_table; }
 std::span<const Field<ImageSize>> image_fields() { return image_table; }
 std::span<const Field<Sphere>> sphere_fields() { return sphere_table; }
-
-const MaterialInfo& material_info(MaterialType type) {
-  return *std::ranges::find(material_table, type, &MaterialInfo::type);
-}
 
 }  // namespace glimt

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "scene/fields.h"
+
 namespace glimt {
 namespace {
 
@@ -121,7 +123,7 @@ std::optional<Pick> pick_seen(const Scene& scene, const Ray& ray, const std::opt
   if (scene.camera.cutaway == Cutaway::off) return pick(scene, ray, left_out);
   return first_hit(scene, ray, left_out, [&](const ObjectId& object) {
     const Material* material = find_material(scene, material_name_of(scene, object));
-    return material != nullptr && material->type == MaterialType::glass ? Sides::both : Sides::front;
+    return material != nullptr && transmits(*material) ? Sides::both : Sides::front;
   });
 }
 

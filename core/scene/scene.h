@@ -5,49 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "scene/material.h"
 #include "scene/settings.h"
 
 /// The scene as a person edits it: plain structs with names. World space is left-to-right, y up, right-handed, in
 /// metres. Angles are in degrees here, as in files; radiance is linear RGB in W/(m^2 sr).
 namespace glimt {
-
-enum class MaterialType { lambertian, oren_nayar, eon, mirror, glass, light };
-
-/// Scatters light in all directions.
-inline bool is_diffuse(MaterialType type) {
-  return type == MaterialType::lambertian || type == MaterialType::oren_nayar || type == MaterialType::eon;
-}
-
-/// Which of the two printed forms of the Oren-Nayar model is meant.
-enum class OrenNayarFormula {
-  published,  ///< sin(alpha) tan(beta): Oren and Nayar 1994, eq. 30
-  report,     ///< sin(alpha) sin(beta): the course report's eq. 7
-};
-
-enum class Fresnel { exact, schlick };
-
-/// A material with the parameters of every type, so that switching the type back and forth loses nothing. Which of them
-/// a type reads is declared in fields.cpp.
-struct Material {
-  std::string name;
-  MaterialType type = MaterialType::lambertian;
-  glm::dvec3 reflectance{0.75};  ///< per channel, 0..1
-  double roughness = 0.6;        ///< sigma, standard deviation of the facet slope angle, radians
-  double eon_roughness = 0.6;    ///< of the energy-preserving Oren-Nayar model, 0..1
-  OrenNayarFormula formula = OrenNayarFormula::published;
-  double ior = 1.5;  ///< absolute refractive index; 1 outside everything
-  Fresnel fresnel = Fresnel::exact;
-  glm::dvec3 radiance{20.0};  ///< emitted by a light from its front side, W/(m^2 sr)
-  glm::dvec3 emission{0.0};   ///< glow of a reflecting surface, not sampled by next-event estimation, W/(m^2 sr)
-
-  bool operator==(const Material&) const = default;
-};
-
-/// Glass, or a mirror that is not black.
-inline bool is_specular(const Material& material) {
-  return material.type == MaterialType::glass ||
-         (material.type == MaterialType::mirror && material.reflectance != glm::dvec3{0});
-}
 
 /// Whether the camera looks through surfaces that turn their back to it.
 enum class Cutaway { off, on };

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "scene/fields.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/geometry/room.h"
 #include "scene/pick.h"
@@ -43,14 +44,12 @@ Box box_of(const Scene& scene) {
   return box;
 }
 
-MaterialType type_of(const Scene& scene, const std::string& material) { return find_material(scene, material)->type; }
-
 /// Distance to the first surface that is not glass, in lengths of the direction; nothing where the ray meets none.
 std::optional<double> distance_to_opaque(const Scene& scene, Ray ray, double size) {
   double gone = 0;
   while (const auto hit = pick(scene, ray)) {
     const double distance = gone + hit->distance;
-    if (type_of(scene, material_name_of(scene, hit->object)) != MaterialType::glass) return distance;
+    if (!transmits(*find_material(scene, material_name_of(scene, hit->object)))) return distance;
     const double step = hit->distance + step_through * size / length(ray.direction);
     gone += step;
     ray.origin += ray.direction * step;
@@ -77,12 +76,12 @@ std::vector<Ray> rays_from_lamps(const Scene& scene, const dvec3& middle) {
     rays.push_back({sum / static_cast<double>(vertices.size()), plane_of(vertices).n});
   };
   for (const Polygon& p : scene.polygons)
-    if (type_of(scene, p.material) == MaterialType::light) add(p.vertices);
+    if (is_lamp(*find_material(scene, p.material))) add(p.vertices);
   for (const Mesh& m : scene.meshes)
-    if (type_of(scene, m.material) == MaterialType::light && !m.triangles.empty())
+    if (is_lamp(*find_material(scene, m.material)) && !m.triangles.empty())
       add(triangle_vertices(m, m.triangles.front()));
   for (const Sphere& s : scene.spheres) {
-    if (type_of(scene, s.material) != MaterialType::light) continue;
+    if (!is_lamp(*find_material(scene, s.material))) continue;
     const dvec3 way = middle - s.center;
     const dvec3 out = length(way) > 0 ? normalize(way) : dvec3{0, -1, 0};
     rays.push_back({s.center + out * s.radius, out});

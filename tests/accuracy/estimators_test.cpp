@@ -16,13 +16,9 @@ constexpr double alpha = 1e-4;
 Scene lamps_of_all_shapes() {
   Scene scene;
   scene.name = "lamps of all shapes";
-  scene.materials = {
-      lambertian("white", {0.7, 0.7, 0.6}),
-      lambertian("red", {0.7, 0.2, 0.1}),
-      light("ceiling lamp", {2, 3, 4}),
-      light("bulb", {5, 3, 1}),
-      light("crystal", {1, 6, 2}),
-      {.name = "clay", .type = MaterialType::oren_nayar, .reflectance = {0.6, 0.6, 0.7}, .roughness = 0.8}};
+  scene.materials = {lambertian("white", {0.7, 0.7, 0.6}), lambertian("red", {0.7, 0.2, 0.1}),
+                     light("ceiling lamp", {2, 3, 4}),     light("bulb", {5, 3, 1}),
+                     light("crystal", {1, 6, 2}),          oren_nayar("clay", 0.8, {0.6, 0.6, 0.7})};
   scene.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
   scene.polygons[4].material = "red";
   scene.polygons.push_back(
@@ -50,9 +46,7 @@ Scene with_mirror_and_glass() {
 Scene rectangles() {
   Scene scene;
   scene.name = "rectangles";
-  scene.materials = {{.name = "white", .type = MaterialType::eon, .reflectance = {0.8, 0.6, 0.5}, .eon_roughness = 1},
-                     light("lamp", {2, 4, 3}),
-                     light("panel", {3, 1, 2})};
+  scene.materials = {eon("white", 1, {0.8, 0.6, 0.5}), light("lamp", {2, 4, 3}), light("panel", {3, 1, 2})};
   scene.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
   scene.polygons.push_back({"lamp", "lamp", {{-1.5, 0.95, -1}, {0.5, 0.95, -1}, {0.5, 0.95, 0.5}, {-1.5, 0.95, 0.5}}});
   scene.polygons.push_back({"panel", "panel", {{1.5, -1, -1.5}, {1.5, -1, 0}, {1.5, 0.2, 0}, {1.5, 0.2, -1.5}}});

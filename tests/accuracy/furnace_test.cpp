@@ -127,8 +127,7 @@ TEST(GlowingBox, PerfectMirrorsCannotBeSeen) {
 TEST(GlowingBox, WhiteEonSphereCannotBeSeen) {
   for (const double roughness : {0.0, 0.4, 1.0}) {
     Scene scene = glowing_box();
-    scene.materials.push_back(
-        {.name = "white", .type = MaterialType::eon, .reflectance = dvec3{1}, .eon_roughness = roughness});
+    scene.materials.push_back(eon("white", roughness, dvec3{1}));
     scene.spheres = {{"ball", "white", {0, 0, 0}, 0.9}};
     scene.name = "EON of roughness " + std::to_string(roughness);
     expect_uniform(scene, {0.25, 1, 3}, 16 * effort);

@@ -42,7 +42,7 @@ CompiledScene two_surfaces(double n, Fresnel fresnel, bool core) {
   if (core) {
     scene.spheres.push_back({"core", "core", {0, 0, 0}, 0.9999});
     for (Material& m : scene.materials)
-      if (m.name == "wall") m.emission = {0, 0, 0};
+      if (m.name == "wall") m.set(Matt::emission, dvec3{0});
   }
   scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 50};
   scene.render.sampler = Sampler::independent;

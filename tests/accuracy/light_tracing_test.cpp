@@ -82,10 +82,8 @@ std::vector<Scene> scenes() {
   all.back().polygons[0].material = "clay";
   all.back().polygons[2].material = "mirror";
   all.back().polygons[3].material = "eon";
-  all.back().materials.push_back(
-      {.name = "clay", .type = MaterialType::oren_nayar, .reflectance = {0.6, 0.6, 0.7}, .roughness = 0.8});
-  all.back().materials.push_back(
-      {.name = "eon", .type = MaterialType::eon, .reflectance = {0.8, 0.6, 0.5}, .eon_roughness = 1});
+  all.back().materials.push_back(oren_nayar("clay", 0.8, {0.6, 0.6, 0.7}));
+  all.back().materials.push_back(eon("eon", 1, {0.8, 0.6, 0.5}));
 
   // Paths must not begin on the part of a lamp that is behind the wall, nor in a block.
   all.push_back(with_ball("a lamp that reaches out of the room and into a block", 1, "glass"));

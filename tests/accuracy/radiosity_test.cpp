@@ -6,6 +6,8 @@
 #include <iostream>
 
 #include "given_rays.h"
+#include "material/light.h"
+#include "material/shared.h"
 #include "scene/file/scene_file.h"
 
 using namespace glimt;
@@ -46,12 +48,12 @@ void add_triangles(Room& room, int face, const dvec3& reflectance, const dvec3& 
 Room patches_of(const Scene& scene, double size) {
   Room room;
   room.lamp = scene.polygons.back().vertices;
-  room.emitted = find_material(scene, scene.polygons.back().material)->radiance;
+  room.emitted = find_material(scene, scene.polygons.back().material)->get(Light::radiance);
   const auto count = [&](double extent) { return std::max(1, static_cast<int>(std::lround(extent / size))); };
   for (std::size_t f = 0; f + 1 < scene.polygons.size(); ++f) {
     const Polygon& p = scene.polygons[f];
     const auto& v = p.vertices;
-    const dvec3 reflectance = find_material(scene, p.material)->reflectance;
+    const dvec3 reflectance = find_material(scene, p.material)->get(Matt::reflectance);
     const int face = static_cast<int>(f);
     if (v.size() == 4) {
       add_patches(room, face, reflectance, v[0], v[1] - v[0], v[3] - v[0], count(length(v[1] - v[0])),
@@ -98,7 +100,7 @@ TEST(Radiosity, EmptyRoomIsTheSolutionOfItsLinearSystem) {
     const dvec3 p = v.size() == 6 ? dvec3{10 * point.s, v[0].y, 6 * point.t}
                                   : v[0] + point.s * (v[1] - v[0]) + point.t * (v[3] - v[0]);
     const dvec3 n = normalize(cross(v[1] - v[0], v[2] - v[0]));
-    const dvec3 reflectance = find_material(scene, scene.polygons[point.face].material)->reflectance;
+    const dvec3 reflectance = find_material(scene, scene.polygons[point.face].material)->get(Matt::reflectance);
     const auto solution = [&](const Room& room) {
       return room.reflected(p, n, static_cast<int>(point.face), reflectance).g;
     };

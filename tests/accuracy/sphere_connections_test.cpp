@@ -88,10 +88,8 @@ std::vector<Scene> scenes() {
   all.push_back(with_ball("rough and EON floors", "glass"));
   all.back().polygons[0].material = "clay";
   all.back().polygons[3].material = "eon";
-  all.back().materials.push_back(
-      {.name = "clay", .type = MaterialType::oren_nayar, .reflectance = {0.6, 0.6, 0.7}, .roughness = 0.8});
-  all.back().materials.push_back(
-      {.name = "eon", .type = MaterialType::eon, .reflectance = {0.8, 0.6, 0.5}, .eon_roughness = 1});
+  all.back().materials.push_back(oren_nayar("clay", 0.8, {0.6, 0.6, 0.7}));
+  all.back().materials.push_back(eon("eon", 1, {0.8, 0.6, 0.5}));
 
   all.push_back(mirror_room("more balls than are connected"));
   for (int i = 0; i < 10; ++i)

@@ -22,14 +22,13 @@ std::vector<Scene> scenes() {
   }
   Scene rough;
   rough.name = "rough walls, a mirror, and glass with things in it";
-  rough.materials = {
-      lambertian("white", {0.8, 0.7, 0.6}),
-      lambertian("glow", {0.5, 0.6, 0.7}, {0.2, 0.1, 0.1}),
-      light("lamp", {4, 5, 6}),
-      mirror("mirror", {0.9, 0.8, 0.9}),
-      glass("glass", 1.5),
-      {.name = "clay", .type = MaterialType::oren_nayar, .reflectance = {0.6, 0.6, 0.7}, .roughness = 0.8},
-      {.name = "eon", .type = MaterialType::eon, .reflectance = {0.8, 0.6, 0.5}, .eon_roughness = 1}};
+  rough.materials = {lambertian("white", {0.8, 0.7, 0.6}),
+                     lambertian("glow", {0.5, 0.6, 0.7}, {0.2, 0.1, 0.1}),
+                     light("lamp", {4, 5, 6}),
+                     mirror("mirror", {0.9, 0.8, 0.9}),
+                     glass("glass", 1.5),
+                     oren_nayar("clay", 0.8, {0.6, 0.6, 0.7}),
+                     eon("eon", 1, {0.8, 0.6, 0.5})};
   rough.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
   rough.polygons[0].material = "clay";
   rough.polygons[1].material = "eon";
@@ -134,7 +133,7 @@ TEST(SharedTails, GoToThePixelsTheyAreFor) {
 TEST(SharedTails, AddUpToWhatTheFourPathsFound) {
   Scene scene = read_scene(GLIMT_SCENES "/hexagon_diffuse.toml");
   for (Material& m : scene.materials)
-    if (m.type == MaterialType::lambertian) m.reflectance = dvec3{0.5};
+    if (m.type == "lambertian") m.set(Matt::reflectance, dvec3{0.5});
   scene.image = {64, 48};
   scene.render.roulette_depth = 64;
   scene.render.max_depth = 6;

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "film/statistics.h"
+#include "material/oren_nayar.h"
 #include "render/render.h"
 #include "render/session.h"
 #include "scene/file/scene_file.h"
@@ -38,7 +39,8 @@ void edit_to_image(benchmark::State& state, int width, int height) {
   Session session;
   double worst = 0;
   for (auto _ : state) {
-    scene.materials.back().roughness = scene.materials.back().roughness > 0.5 ? 0.4 : 0.6;
+    Material& clay = scene.materials.back();
+    clay.set(OrenNayar::roughness, clay.get(OrenNayar::roughness) > 0.5 ? 0.4 : 0.6);
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t version = session.post(scene);
     while (!session.frame() || session.frame()->version != version)

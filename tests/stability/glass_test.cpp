@@ -75,8 +75,8 @@ TEST(Glass, OfEveryIndexIsInvisible) {
     for (const Fresnel fresnel : {Fresnel::exact, Fresnel::schlick}) {
       Scene scene = lossless_box();
       scene.name = "index " + std::to_string(n);
-      scene.materials[3].ior = n;
-      scene.materials[3].fresnel = fresnel;
+      scene.materials[3].set(Glass::ior, n);
+      scene.materials[3].set(Glass::fresnel, fresnel);
       scene.spheres = {{"ball", "glass", {0, 1, 0}, 0.7}};
       scene.meshes = {tetrahedron("block", "glass", {1, 0.6, 1}, 0.4)};
       expect_lossless(scene);
@@ -150,7 +150,7 @@ TEST(Glass, AroundTheCameraShowsTheSquareOfItsIndex) {
   for (const double n : {1 + 1e-6, 1.5, 3.0}) {
     Scene scene = lossless_box();
     scene.name = "camera in glass of index " + std::to_string(n);
-    scene.materials[3].ior = n;
+    scene.materials[3].set(Glass::ior, n);
     scene.spheres = {{"ball", "glass", scene.camera.eye, 0.4}};  // rays from the middle meet it at right angles
     expect_lossless(scene, n * n);
   }
@@ -162,7 +162,7 @@ TEST(Glass, AroundTheCameraShowsTheSquareOfItsIndex) {
 // the box. No such limit is near the directions looked at.
 TEST(Glass, TrappedPathsEndAndTheMeanIsExact) {
   Scene scene = lossless_box();
-  scene.materials[3].ior = 2;
+  scene.materials[3].set(Glass::ior, 2);
   scene.meshes = {box_mesh({-0.5, 0.5, 1.5}, {0.7, 1.7, 2.9}, "glass", false)};
   for (const Roulette roulette : {Roulette::throughput, Roulette::constant})
     for (const int depth : {0, 3, 64}) {

@@ -76,11 +76,11 @@ TEST(TinyLamp, FoundByChanceAloneIsLost) {
 TEST(LampRadiance, ScalesThePictureExactly) {
   Scene scene = read_scene(GLIMT_SCENES "/report.toml");
   scene.image = {64, 48};
-  Material& lamp = *std::ranges::find(scene.materials, MaterialType::light, &Material::type);
-  const auto brightness = lamp.radiance;
+  Material& lamp = *std::ranges::find(scene.materials, "light", &Material::type);
+  const auto brightness = lamp.get(Light::radiance);
   const Image image = render(compile(scene), 2 * effort).mean();
   for (const double factor : {0x1p-20, 0x1p20, 1e-6, 1e6}) {
-    lamp.radiance = brightness * factor;
+    lamp.set(Light::radiance, brightness * factor);
     const CompiledScene compiled = compile(scene);
     Film film = make_film(compiled);
     render_pass(compiled, film, 2 * effort, {});

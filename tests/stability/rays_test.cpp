@@ -13,8 +13,7 @@ namespace {
 /// way sums up 64 times 1 without rounding. A ray that escaped, or a value that is no number, would make it less.
 Scene glowing_room() {
   Scene scene = read_scene(GLIMT_SCENES "/report.toml");
-  for (Material& m : scene.materials)
-    m = {.name = m.name, .type = MaterialType::lambertian, .reflectance = dvec3{1}, .emission = dvec3{1}};
+  for (Material& m : scene.materials) m = lambertian(m.name, dvec3{1}, dvec3{1});
   scene.render.max_depth = 64;
   scene.render.roulette_depth = 64;
   scene.render.path_sharing = PathSharing::off;  // each path for itself

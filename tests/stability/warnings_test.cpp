@@ -119,7 +119,7 @@ TEST(Warnings, RouletteInBrightRooms) {
   const std::string infinite = "infinite variance";
   const auto bright = [](double reflectance, Roulette roulette) {
     return [=](Scene& s) {
-      s.materials[0].reflectance = dvec3{reflectance};
+      s.materials[0].set(Matt::reflectance, dvec3{reflectance});
       s.render.roulette = roulette;
     };
   };

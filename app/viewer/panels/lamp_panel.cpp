@@ -38,7 +38,7 @@ void draw_lamp_panel(const ViewerState& state, Edits& edits) {
                          .doc = "largest extent, metres; the lamp grows about its middle",
                          .min = smallest,
                          .max = max_coordinate};
-    if (edit_real(text, size)) scale(edits.edit(state), lamp, size / before);
+    if (edit_value(text, size)) scale(edits.edit(state), lamp, size / before);
   }
 }
 

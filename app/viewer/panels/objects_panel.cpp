@@ -57,16 +57,16 @@ void draw_list(const ViewerState& state, Edits& edits) {
 
 /// The menu of material types; those that the object cannot be of are greyed, with the reason.
 bool edit_type(const Scene& scene, const ObjectId& object, Material& material) {
-  const MaterialType before = material.type;
+  const std::string before = material.type;
   begin_row("Material", "What the object is made of. One that shared its material gets one of its own.");
   const bool open =
       ImGui::BeginCombo("##type", label_of(material_info(before).name).c_str(), ImGuiComboFlags_HeightLargest);
   note_widget("object.type");
   if (!open) return false;
   for (const auto& info : material_infos()) {
-    const std::string obstacle = info.type == before ? "" : obstacle_to(scene, object, info.type);
+    const std::string obstacle = info.name == before ? "" : obstacle_to(scene, object, info.name);
     const auto flags = obstacle.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
-    if (ImGui::Selectable(label_of(info.name).c_str(), info.type == before, flags)) material.type = info.type;
+    if (ImGui::Selectable(label_of(info.name).c_str(), info.name == before, flags)) material.type = info.name;
     note_widget("object.type." + std::string(info.name));
     tooltip(obstacle.empty() ? sentence(info.doc) : "Not here: " + obstacle);
   }

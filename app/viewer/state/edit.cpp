@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "scene/fields.h"
 #include "scene/validate/validate.h"
 
 namespace glimt {
@@ -62,7 +63,7 @@ std::string display_name(const Scene& scene, const ObjectId& object) {
   return std::string(kinds[static_cast<int>(object.kind)]) + " " + std::to_string(object.index);
 }
 
-std::string obstacle_to(const Scene& scene, const ObjectId& object, MaterialType type) {
+std::string obstacle_to(const Scene& scene, const ObjectId& object, std::string_view type) {
   Material changed = *find_material(scene, material_name_of(scene, object));
   changed.type = type;
   Scene with = scene;
@@ -73,9 +74,7 @@ std::string obstacle_to(const Scene& scene, const ObjectId& object, MaterialType
 
 std::vector<ObjectId> lamps_of(const Scene& scene) {
   std::vector<ObjectId> lamps = objects_of(scene);
-  std::erase_if(lamps, [&](const ObjectId& o) {
-    return find_material(scene, material_name_of(scene, o))->type != MaterialType::light;
-  });
+  std::erase_if(lamps, [&](const ObjectId& o) { return !is_lamp(*find_material(scene, material_name_of(scene, o))); });
   return lamps;
 }
 

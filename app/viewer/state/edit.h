@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/pick.h"
@@ -19,7 +20,7 @@ void set_material(Scene& scene, const ObjectId& object, Material material);
 std::string display_name(const Scene& scene, const ObjectId& object);
 
 /// Why the object cannot be of this type in this scene; empty where it can.
-std::string obstacle_to(const Scene& scene, const ObjectId& object, MaterialType type);
+std::string obstacle_to(const Scene& scene, const ObjectId& object, std::string_view type);
 
 /// The objects that are lamps.
 std::vector<ObjectId> lamps_of(const Scene& scene);

@@ -32,7 +32,7 @@ std::string value_text(const Field<T>& field, const T& object) {
           const std::string name(member.names[static_cast<std::size_t>(member.get(object))]);
           return field.key == "sampler" || field.key == "method" ? name : words(field.key) + " " + name;
         } else {
-          return words(field.key) + " " + text_of(object.*member);
+          return words(field.key) + " " + text_of(member.get(object));
         }
       },
       field.member);

@@ -85,7 +85,7 @@ bool edit_swatch(glm::dvec3& colour) {
 
 }  // namespace
 
-bool edit_int(const FieldText& field, int& value) {
+bool edit_value(const FieldText& field, int& value) {
   begin_field_row(field);
   const int low = static_cast<int>(field.min), high = static_cast<int>(field.max);
   const double range = field.max - field.min;
@@ -103,7 +103,7 @@ bool edit_int(const FieldText& field, int& value) {
   return end_field_row(field, changed);
 }
 
-bool edit_real(const FieldText& field, double& value) {
+bool edit_value(const FieldText& field, double& value) {
   begin_field_row(field);
   const double low = lowest(field), high = field.max;
   bool changed = false;
@@ -115,7 +115,7 @@ bool edit_real(const FieldText& field, double& value) {
   return end_field_row(field, changed);
 }
 
-bool edit_vector(const FieldText& field, glm::dvec3& value) {
+bool edit_value(const FieldText& field, glm::dvec3& value) {
   begin_field_row(field);
   bool changed = false;
   if (field.min < 0) {

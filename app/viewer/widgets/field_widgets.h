@@ -21,9 +21,9 @@ struct FieldText {
 };
 
 /// Each draws a row and returns true where its value was changed, always to one that the field allows.
-bool edit_int(const FieldText& field, int& value);
-bool edit_real(const FieldText& field, double& value);
-bool edit_vector(const FieldText& field, glm::dvec3& value);
+bool edit_value(const FieldText& field, int& value);
+bool edit_value(const FieldText& field, double& value);
+bool edit_value(const FieldText& field, glm::dvec3& value);
 bool edit_choice(const FieldText& field, std::span<const std::string_view> names, int& value);
 
 /// The row of one field of `object`, which stands at `path` in the scene ("render", "sphere.glass.material").
@@ -39,12 +39,11 @@ bool edit_field(const Field<T>& field, T& object, const std::string& path) {
           const bool changed = edit_choice(text, member.names, value);
           if (changed) member.set(object, value);
           return changed;
-        } else if constexpr (std::is_same_v<Member, int T::*>) {
-          return edit_int(text, object.*member);
-        } else if constexpr (std::is_same_v<Member, double T::*>) {
-          return edit_real(text, object.*member);
         } else {
-          return edit_vector(text, object.*member);
+          auto value = member.get(object);
+          const bool changed = edit_value(text, value);
+          if (changed) member.set(object, value);
+          return changed;
         }
       },
       field.member);

@@ -10,7 +10,7 @@ namespace glimt {
 
 /// A and B of the Oren-Nayar model, per lane; 1 and 0 for Lambertian.
 template <class F>
-struct OrenNayar {
+struct OrenNayarFactors {
   F a, b;
   Mask<F> report;  ///< sin(beta) for tan(beta)
 };
@@ -20,7 +20,7 @@ struct OrenNayar {
 /// = sin(theta_i) sin(theta_o) cos(phi_i - phi_o) = wi.wo - cos(theta_i) cos(theta_o), sin(alpha) tan(beta) cos(phi_i -
 /// phi_o) is s over the larger cosine.
 template <class F>
-F oren_nayar_factor(const OrenNayar<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
+F oren_nayar_factor(const OrenNayarFactors<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
   const F s = max(dot(wi, wo) - cos_i * cos_o, F(0.0f));
   const F larger_cos = max(max(cos_i, cos_o), F(1e-6f));
   return fma(m.b, select(m.report, s, s * reciprocal(larger_cos)), m.a);
@@ -41,15 +41,15 @@ F eon_albedo(F cos, F a, F roughness) {
 
 /// EON's parameters, per lane.
 template <class F>
-struct Eon {
+struct EonFactors {
   F a, roughness;
-  Vec3<F> multiple;  ///< weight of the light reflected many times, by channel; see compile.cpp
+  Vec3<F> multiple;  ///< weight of the light reflected many times, by channel; see material/eon.h
 };
 
 /// The BRDF over rho / pi: the FON part, A (1 + r s / t) with s as above and t the larger cosine where s > 0, else 1;
 /// and the light that its single bounce loses, spread as (1 - E(wi)) (1 - E(wo)).
 template <class F>
-Vec3<F> eon_factor(const Eon<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
+Vec3<F> eon_factor(const EonFactors<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
   const F s = dot(wi, wo) - cos_i * cos_o;
   const F larger_cos = max(max(cos_i, cos_o), F(1e-6f));
   const F over_t = select(s > F(0.0f), s * reciprocal(larger_cos), s);

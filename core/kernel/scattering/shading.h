@@ -76,7 +76,7 @@ class Surfaces {
   /// Whether some diffuse surface is not Lambertian.
   bool has_rough() const { return has_oren_nayar() || has_eon(); }
 
-  OrenNayar<F> oren_nayar(const Shading<F>& at) const {
+  OrenNayarFactors<F> oren_nayar(const Shading<F>& at) const {
     return {value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
             value(Column::oren_nayar_report, at) > F(0.5f)};
   }
@@ -88,8 +88,8 @@ class Surfaces {
   V diffuse_factor(const Shading<F>& at, const V& wi, const V& wo, F cos_i, F cos_o) const {
     const V rough = V::all(oren_nayar_factor(oren_nayar(at), wi, wo, cos_i, cos_o));
     if (!has_eon()) return rough;
-    const Eon<F> eon{value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
-                     vector(Column::eon_multiple_r, at)};
+    const EonFactors<F> eon{value(Column::oren_nayar_a, at), value(Column::oren_nayar_b, at),
+                            vector(Column::eon_multiple_r, at)};
     return select(value(Column::eon, at) > F(0.5f), eon_factor(eon, wi, wo, cos_i, cos_o), rough);
   }
 

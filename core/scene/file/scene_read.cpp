@@ -27,12 +27,12 @@ Keys keys_of(std::span<const Field<T>> fields, Keys keys = {}) {
 template <class T>
 void read_member(const toml::node& node, const Field<T>& field, T& object) {
   const std::string key(field.key);
-  if (const auto* integer = std::get_if<int T::*>(&field.member))
-    object.** integer = as_integer(node, key, static_cast<int>(field.min), static_cast<int>(field.max));
-  else if (const auto* number = std::get_if<double T::*>(&field.member))
-    object.** number = as_number(node, key);
-  else if (const auto* vector = std::get_if<glm::dvec3 T::*>(&field.member))
-    object.** vector = as_vector(node, key);
+  if (const auto* integer = std::get_if<Value<T, int>>(&field.member))
+    integer->set(object, as_integer(node, key, static_cast<int>(field.min), static_cast<int>(field.max)));
+  else if (const auto* number = std::get_if<Value<T, double>>(&field.member))
+    number->set(object, as_number(node, key));
+  else if (const auto* vector = std::get_if<Value<T, glm::dvec3>>(&field.member))
+    vector->set(object, as_vector(node, key));
   else if (const auto* choice = std::get_if<Choice<T>>(&field.member))
     choice->set(object, as_choice(node, key, choice->names));
 }
@@ -85,7 +85,7 @@ Material read_material(const std::string& name, const toml::node& node) {
   }
   check_known(table, where, known);
 
-  Material material{.name = name, .type = info.type};
+  Material material{.name = name, .type = std::string(info.name)};
   for (const Field<Material>& field : fields)
     if (field.required && !table.contains(field.key))
       fail(is_override(type.source()) ? type.source() : table.source(), where + " has no " + toml_string(field.key) +

@@ -11,9 +11,9 @@ std::string vector_text(const glm::dvec3& v) {
 
 template <class T>
 std::string value_text(const Field<T>& field, const T& object) {
-  if (const auto* member = std::get_if<int T::*>(&field.member)) return std::to_string(object.**member);
-  if (const auto* member = std::get_if<double T::*>(&field.member)) return number_text(object.**member);
-  if (const auto* member = std::get_if<glm::dvec3 T::*>(&field.member)) return vector_text(object.**member);
+  if (const auto* member = std::get_if<Value<T, int>>(&field.member)) return std::to_string(member->get(object));
+  if (const auto* member = std::get_if<Value<T, double>>(&field.member)) return number_text(member->get(object));
+  if (const auto* member = std::get_if<Value<T, glm::dvec3>>(&field.member)) return vector_text(member->get(object));
   const auto& choice = std::get<Choice<T>>(field.member);
   return toml_string(choice.names[static_cast<std::size_t>(choice.get(object))]);
 }

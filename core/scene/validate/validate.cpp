@@ -28,11 +28,11 @@ std::string field_mistake(const Field<T>& field, const T& object) {
                                   : name + " is " + number_text(value) + "; allowed is " +
                                         range_text(field.min, field.max, field.min_excluded);
   };
-  if (const auto* member = std::get_if<int T::*>(&field.member)) return check(key, object.**member);
-  if (const auto* member = std::get_if<double T::*>(&field.member)) return check(key, object.**member);
-  if (const auto* member = std::get_if<glm::dvec3 T::*>(&field.member)) {
+  if (const auto* member = std::get_if<Value<T, int>>(&field.member)) return check(key, member->get(object));
+  if (const auto* member = std::get_if<Value<T, double>>(&field.member)) return check(key, member->get(object));
+  if (const auto* member = std::get_if<Value<T, glm::dvec3>>(&field.member)) {
     for (int i = 0; i < 3; ++i)
-      if (const double value = (object.**member)[i]; !in_range(field, value))
+      if (const double value = member->get(object)[i]; !in_range(field, value))
         return check(element(key, static_cast<std::size_t>(i)), value);
     return {};
   }
@@ -73,6 +73,8 @@ void check_image(const ImageSize& image, Problems& problems) {
 
 void check_materials(const std::vector<Material>& materials, Problems& problems) {
   std::set<std::string_view> names;
+  std::vector<std::string_view> types;
+  for (const MaterialInfo& info : material_infos()) types.push_back(info.name);
   for (const Material& material : materials) {
     const std::string path = "material." + key_text(material.name);
     const std::string who = "material " + toml_string(material.name);
@@ -80,7 +82,12 @@ void check_materials(const std::vector<Material>& materials, Problems& problems)
       problems.push_back({path, "a material has no name; allowed is any text but the empty one"});
     if (!names.insert(material.name).second)
       problems.push_back({path, who + ": the name is taken; allowed is one that no other material has"});
-    check_fields(std::span<const Field<Material>>(material_info(material.type).fields), material, path, who, problems);
+    const MaterialInfo* info = find_material_info(material.type);
+    if (info)
+      check_fields(std::span<const Field<Material>>(info->fields), material, path, who, problems);
+    else
+      problems.push_back({path + ".type", who + ": there is no type " + toml_string(material.type) +
+                                              "; allowed is one of " + joined(types)});
   }
 }
 

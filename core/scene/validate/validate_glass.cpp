@@ -1,14 +1,13 @@
 #include <string>
 
+#include "scene/fields.h"
 #include "scene/geometry/solid_overlap.h"
 #include "scene/validate/validate_parts.h"
 
 namespace glimt {
 namespace {
 
-bool is_glass(const Scene& scene, const std::string& material) {
-  return find_material(scene, material)->type == MaterialType::glass;
-}
+bool is_glass(const Scene& scene, const std::string& material) { return transmits(*find_material(scene, material)); }
 
 void check_pair(const auto& a, const std::string& a_called, const auto& b, const std::string& b_called,
                 const std::string& path, Problems& problems) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "material/oren_nayar.h"
 #include "scene/file/scene_file.h"
 #include "viewer/chart_view/chart_export.h"
 #include "viewer/state/scene_difference.h"
@@ -105,7 +106,7 @@ TEST(Curves, DifferencesAreNamed) {
                                       to.spheres[1].name + " moved"}));
   to = from;
   for (Material& material : to.materials)
-    if (material.type == MaterialType::oren_nayar) material.roughness = 0.3;
+    if (material.type == "oren-nayar") material.set(OrenNayar::roughness, 0.3);
   ASSERT_EQ(told(from, to).size(), 1U);
   EXPECT_TRUE(told(from, to)[0].ends_with(" roughness 0.3")) << told(from, to)[0];
 }

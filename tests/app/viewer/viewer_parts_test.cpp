@@ -43,20 +43,20 @@ TEST(Edit, SharedMaterialIsCopiedUnderAnUnusedName) {
   Scene scene;
   scene.materials = {Material{.name = "white"}, Material{.name = "ball"}};
   scene.spheres = {Sphere{.name = "ball", .material = "white"}, Sphere{.name = "other", .material = "white"}};
-  Material glass{.name = "any", .type = MaterialType::glass};
+  Material glass{.name = "any", .type = "glass"};
   set_material(scene, {ObjectKind::sphere, 0}, glass);
   ASSERT_EQ(scene.spheres[0].material, "ball-2") << "\"ball\" is taken";
-  EXPECT_EQ(find_material(scene, "ball-2")->type, MaterialType::glass);
-  EXPECT_EQ(find_material(scene, "white")->type, MaterialType::lambertian);
+  EXPECT_EQ(find_material(scene, "ball-2")->type, "glass");
+  EXPECT_EQ(find_material(scene, "white")->type, "lambertian");
 
-  set_material(scene, {ObjectKind::sphere, 0}, Material{.name = "any", .type = MaterialType::mirror});
+  set_material(scene, {ObjectKind::sphere, 0}, Material{.name = "any", .type = "mirror"});
   EXPECT_EQ(scene.materials.size(), 3U) << "its own by now";
-  EXPECT_EQ(find_material(scene, "ball-2")->type, MaterialType::mirror);
+  EXPECT_EQ(find_material(scene, "ball-2")->type, "mirror");
 }
 
 TEST(Edit, LampsGrowAboutTheirMiddle) {
   Scene scene;
-  scene.materials = {Material{.name = "lamp", .type = MaterialType::light}, Material{.name = "white"}};
+  scene.materials = {Material{.name = "lamp", .type = "light"}, Material{.name = "white"}};
   scene.polygons = {
       Polygon{.name = "square", .material = "lamp", .vertices = {{1, 5, 0}, {3, 5, 0}, {3, 5, 2}, {1, 5, 2}}}};
   scene.spheres = {Sphere{.name = "bulb", .material = "lamp", .center = {1, 2, 3}, .radius = 2},
@@ -75,12 +75,12 @@ TEST(Edit, LampsGrowAboutTheirMiddle) {
 TEST(Edit, SaysWhyAShapeCannotBeOfAMaterial) {
   const Scene scene = read_scene(GLIMT_SCENES "/report.toml");
   const ObjectId wall{ObjectKind::polygon, 0}, glass{ObjectKind::sphere, 3}, solid{ObjectKind::mesh, 0};
-  EXPECT_NE(obstacle_to(scene, wall, MaterialType::glass).find("open"), std::string::npos);
+  EXPECT_NE(obstacle_to(scene, wall, "glass").find("open"), std::string::npos);
   for (const auto& info : material_infos()) {
-    EXPECT_EQ(obstacle_to(scene, glass, info.type), "") << info.name;
-    EXPECT_EQ(obstacle_to(scene, wall, info.type) == "", info.type != MaterialType::glass) << info.name;
+    EXPECT_EQ(obstacle_to(scene, glass, info.name), "") << info.name;
+    EXPECT_EQ(obstacle_to(scene, wall, info.name) == "", info.name != "glass") << info.name;
   }
-  EXPECT_EQ(obstacle_to(scene, solid, MaterialType::glass), "") << "a tetrahedron is closed";
+  EXPECT_EQ(obstacle_to(scene, solid, "glass"), "") << "a tetrahedron is closed";
 }
 
 Document document(const std::string& name) {

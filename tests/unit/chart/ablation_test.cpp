@@ -20,7 +20,7 @@ bool has(const std::vector<Piece>& pieces, const std::string& name) {
 
 TEST(Ablation, TriesWhatTheSceneHasAndNothingElse) {
   const auto report = pieces_of(small("report.toml")), empty = pieces_of(small("hexagon_empty.toml"));
-  for (const char* name : {"Lambertian for rough materials", "Schlick's Fresnel", "caustics off", "light paths 0",
+  for (const char* name : {"roughness 0", "formula report", "fresnel schlick", "caustics off", "light paths 0",
                            "light paths 0.1", "light paths 1", "sphere connections off"}) {
     EXPECT_TRUE(has(report, name)) << name;
     EXPECT_FALSE(has(empty, name)) << name;

@@ -57,7 +57,7 @@ TEST(Compile, TetrahedronOnTheFloorLosesItsBottom) {
 
 TEST(Compile, LeavesOutWhatTheSceneDoesNotNeed) {
   const CompiledScene c = compile(from_file("hexagon_empty"));
-  for (const char* feature : {"mirror", "glass", "Oren-Nayar", "glowing"})
+  for (const char* feature : {"mirror", "glass", "Oren-Nayar", "EON", "glowing"})
     EXPECT_TRUE(mentions(c.left_out, feature)) << feature;
   EXPECT_FALSE(c.has_mirror || c.has_glass || c.has_oren_nayar || c.has_glow);
   EXPECT_TRUE(compile(from_file("report")).has_oren_nayar);
@@ -142,6 +142,17 @@ TEST(Compile, ObjectsOutsideTheRoomAreLeftOut) {
   for (const char* name : {"\"out\"", "\"lamp outside\"", "\"mesh outside\""})
     EXPECT_TRUE(mentions(c.left_out, name)) << name;
   EXPECT_TRUE(mentions(c.warnings, "\"lamp outside\" is outside the closed room"));
+}
+
+TEST(Compile, NamesTheMaterialsThatItCompilesIn) {
+  Scene scene = lit_box();
+  scene.materials.push_back(eon("soft", 0.5, dvec3{0.5}));
+  scene.spheres = {{"ball", "soft", {0, 0, 0}, 0.5}, {"in glass", "glass", {0, -0.7, 0}, 0.1}};
+  const CompiledScene c = compile(scene);
+  EXPECT_TRUE(mentions(c.compiled_in, "EON") && mentions(c.compiled_in, "glass"));
+  EXPECT_TRUE(mentions(c.left_out, "Oren-Nayar") && mentions(c.left_out, "mirror reflection"));
+  scene.materials.back().set(Eon::roughness, 0);
+  EXPECT_TRUE(mentions(compile(scene).left_out, "EON")) << "smooth, it is Lambertian";
 }
 
 // Half of such a lamp is behind the wall, from which no light may come in.
@@ -318,7 +329,7 @@ TEST(Compile, WarnsOfConstantRouletteWhereItsVarianceIsInfinite) {
   Scene scene = lit_box();
   scene.render.roulette = Roulette::constant;
   EXPECT_TRUE(compile(scene).warnings.empty());
-  scene.materials[0].reflectance.g = 0.87;
+  scene.materials[0].set(Matt::reflectance, {0.5, 0.87, 0.5});
   EXPECT_TRUE(mentions(compile(scene).warnings, "infinite variance"));
   scene.render.roulette = Roulette::throughput;
   EXPECT_TRUE(compile(scene).warnings.empty());

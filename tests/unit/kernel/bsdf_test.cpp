@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/entry/kernels.h"
+#include "material/oren_nayar.h"
 #include "scene/file/scene_file.h"
 
 using namespace glimt;
@@ -31,12 +32,11 @@ double oren_nayar_transcribed(double sigma, double theta_r, double phi_r, double
 }
 
 /// The scene's compiled A and B.
-OrenNayar<float> compiled_model(double sigma, bool report) {
+OrenNayarFactors<float> compiled_model(double sigma, bool report) {
   Scene scene;
-  scene.materials = {{.name = "clay",
-                      .type = MaterialType::oren_nayar,
-                      .roughness = sigma,
-                      .formula = report ? OrenNayarFormula::report : OrenNayarFormula::published}};
+  scene.materials = {Material{.name = "clay", .type = "oren-nayar"}
+                         .with(OrenNayar::roughness, sigma)
+                         .with(OrenNayar::formula, report ? OrenNayarFormula::report : OrenNayarFormula::published)};
   scene.spheres = {{"", "clay", {0, 0, 0}, 1}};
   const CompiledScene compiled = compile(scene);
   return {compiled.surfaces[Column::oren_nayar_a][0], compiled.surfaces[Column::oren_nayar_b][0],
@@ -49,7 +49,7 @@ TEST(OrenNayar, IsTheFormulaInAngles) {
   std::uniform_real_distribution<double> angle(0, std::numbers::pi / 2 - 1e-3), turn(0, 2 * std::numbers::pi);
   for (const bool report : {false, true})
     for (const double sigma : {0.0, 0.1, 0.3, 0.6, 0.8, 1.0, std::numbers::pi / 2}) {
-      const OrenNayar<float> model = compiled_model(sigma, report);
+      const OrenNayarFactors<float> model = compiled_model(sigma, report);
       for (int i = 0; i < 20000; ++i) {
         const double theta_i = angle(random), theta_o = angle(random), phi_i = turn(random), phi_o = turn(random);
         const V wi = polar(theta_i, phi_i), wo = polar(theta_o, phi_o);
@@ -75,7 +75,7 @@ TEST(OrenNayar, ValuesByHand) {
 }
 
 TEST(OrenNayar, GrazingDirectionsStayFinite) {
-  const OrenNayar<float> model = compiled_model(std::numbers::pi / 2, false);
+  const OrenNayarFactors<float> model = compiled_model(std::numbers::pi / 2, false);
   for (const float cos : {0.0f, 1e-30f, 1e-8f, 1e-6f, 1e-3f}) {
     const V w{1, 0, cos};
     const float factor = oren_nayar_factor(model, w, w, cos, cos);
@@ -96,18 +96,18 @@ std::vector<float> picture(Scene scene) {
 TEST(OrenNayar, WithoutRoughnessIsLambertianBitForBit) {
   Scene scene = read_scene(GLIMT_SCENES "/report.toml");
   Material& clay = *std::ranges::find(scene.materials, "clay", &Material::name);
-  clay.roughness = 0.6;
+  clay.set(OrenNayar::roughness, 0.6);
   const std::vector<float> rough = picture(scene);
-  clay.roughness = 0;
+  clay.set(OrenNayar::roughness, 0);
   const std::vector<float> flat = picture(scene);
-  clay.type = MaterialType::lambertian;
+  clay.type = "lambertian";
   EXPECT_EQ(flat, picture(scene));
   EXPECT_NE(rough, flat);
   // Beside another rough material, the factors of this one are computed, and are 1.
-  scene.materials.push_back({.name = "other", .type = MaterialType::oren_nayar, .roughness = 0.5});
+  scene.materials.push_back(Material{.name = "other", .type = "oren-nayar"}.with(OrenNayar::roughness, 0.5));
   scene.spheres.push_back({"other", "other", {3, -4.5, 0}, 0.5});
   const std::vector<float> lambertian_beside = picture(scene);
-  std::ranges::find(scene.materials, "clay", &Material::name)->type = MaterialType::oren_nayar;
+  std::ranges::find(scene.materials, "clay", &Material::name)->type = "oren-nayar";
   EXPECT_EQ(picture(scene), lambertian_beside);
 }
 

@@ -89,9 +89,7 @@ class Reference {
   }
 
  private:
-  bool is_glass(const std::string& material) const {
-    return find_material(scene_, material)->type == MaterialType::glass;
-  }
+  bool is_glass(const std::string& material) const { return find_material(scene_, material)->type == "glass"; }
   bool around_eye(const Sphere& s) const { return length(scene_.camera.eye - s.center) < s.radius; }
 
   void meet_sphere(const Sphere& s, const Line& line, std::vector<Candidate>& found) const {
@@ -161,10 +159,11 @@ int object_of(const CompiledScene& compiled, const Scene& scene, int surface) {
               inverse_radius = compiled.surfaces[Column::inverse_radius][row];
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
-    if (m.type != MaterialType::glass) continue;
+    if (m.type != "glass") continue;
     const auto sphere = std::ranges::find(scene.spheres, m.name, &Sphere::material);
-    if (sphere != scene.spheres.end() ? static_cast<float>(1 / sphere->radius) == inverse_radius
-                                      : inverse_radius == 0 && std::abs(static_cast<float>(m.ior) - eta) < 1e-4f)
+    if (sphere != scene.spheres.end()
+            ? static_cast<float>(1 / sphere->radius) == inverse_radius
+            : inverse_radius == 0 && std::abs(static_cast<float>(m.get(Glass::ior)) - eta) < 1e-4f)
       return static_cast<int>(i);
   }
   return -1;

@@ -12,7 +12,7 @@ using glm::dvec3;
 
 inline Scene scene_of(std::vector<Sphere> spheres, std::vector<Polygon> polygons = {}, std::vector<Mesh> meshes = {}) {
   Scene scene;
-  scene.materials = {{.name = "white"}, {.name = "glass", .type = MaterialType::glass}};
+  scene.materials = {{.name = "white"}, {.name = "glass", .type = "glass"}};
   scene.spheres = std::move(spheres);
   scene.polygons = std::move(polygons);
   scene.meshes = std::move(meshes);

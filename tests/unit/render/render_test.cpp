@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "material/mirror.h"
 #include "pictures.h"
 #include "random_scene.h"
 #include "scene/file/scene_file.h"
@@ -86,8 +87,8 @@ TEST(Render, PathsAmongMirrorsEndWithConstantRoulette) {
   Scene scene = from_file("furnace");
   scene.render.roulette = Roulette::constant;
   for (Material& m : scene.materials) {
-    m.type = MaterialType::mirror;
-    m.reflectance = {1, 1, 1};
+    m.type = "mirror";
+    m.set(Mirror::reflectance, {1, 1, 1});
   }
   const Film film = render(compile(scene), 2, {});
   for (const float value : film.mean().rgb) ASSERT_EQ(value, 0.0F);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "material/list.h"
 #include "scene/file/text.h"
 #include "scene/validate/validate.h"
 
@@ -45,16 +46,40 @@ TEST(Fields, TablesAreSound) {
 TEST(Fields, DefaultsAreInRange) {
   Scene scene;
   for (const MaterialInfo& info : material_infos())
-    scene.materials.push_back({.name = std::string(info.name), .type = info.type});
+    scene.materials.push_back({.name = std::string(info.name), .type = std::string(info.name)});
   scene.spheres = {{.name = "ball", .material = "mirror"}};
   for (const Problem& problem : validate(scene)) ADD_FAILURE() << problem.message;
 }
 
 TEST(Fields, EveryMaterialTypeIsListedOnce) {
-  const MaterialType types[] = {MaterialType::lambertian, MaterialType::oren_nayar, MaterialType::eon,
-                                MaterialType::mirror,     MaterialType::glass,      MaterialType::light};
-  EXPECT_EQ(material_infos().size(), std::size(types));
-  for (const MaterialType type : types) EXPECT_EQ(material_info(type).type, type);
+  std::set<std::string_view> names;
+  for (const MaterialInfo& info : material_infos()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_EQ(&material_info(info.name), &info);
+  }
+  EXPECT_EQ(find_material_info("wood"), nullptr);
+  EXPECT_THROW(material_info("wood"), std::invalid_argument);
+}
+
+TEST(Fields, SwitchingTheTypeKeepsWhatBothHaveAndLosesNothing) {
+  Material m = Material{.name = "ball", .type = "oren-nayar"}
+                   .with(OrenNayar::reflectance, {0.1, 0.2, 0.3})
+                   .with(OrenNayar::roughness, 1)
+                   .with(Eon::roughness, 0.25);
+  const Material before = m;
+  m.type = "mirror";
+  EXPECT_EQ(m.get(Mirror::reflectance), glm::dvec3(0.1, 0.2, 0.3));
+  m.type = "eon";
+  EXPECT_EQ(m.get(Eon::roughness), 0.25) << "another quantity than Oren-Nayar's";
+  m.type = "oren-nayar";
+  EXPECT_EQ(m, before);
+}
+
+TEST(Fields, AValueEqualToTheDefaultIsNoDifference) {
+  const Material plain{.name = "glass", .type = "glass"};
+  EXPECT_EQ(plain.with(Glass::ior, Glass::ior.fallback), plain);
+  EXPECT_EQ(plain.with(Glass::ior, 2).with(Glass::ior, 1.5), plain);
+  EXPECT_NE(plain.with(Glass::ior, 2), plain);
 }
 
 TEST(Fields, ChoicesSetTheValueTheyName) {
@@ -93,14 +118,14 @@ TEST(Fields, ChoicesSetTheValueTheyName) {
   named(settings_fields(), "roulette", "throughput", settings);
   EXPECT_EQ(settings.roulette, Roulette::throughput);
   Material material;
-  named(material_info(MaterialType::oren_nayar).fields, "formula", "report", material);
-  EXPECT_EQ(material.formula, OrenNayarFormula::report);
-  named(material_info(MaterialType::oren_nayar).fields, "formula", "published", material);
-  EXPECT_EQ(material.formula, OrenNayarFormula::published);
-  named(material_info(MaterialType::glass).fields, "fresnel", "schlick", material);
-  EXPECT_EQ(material.fresnel, Fresnel::schlick);
-  named(material_info(MaterialType::glass).fields, "fresnel", "exact", material);
-  EXPECT_EQ(material.fresnel, Fresnel::exact);
+  named(material_info("oren-nayar").fields, "formula", "report", material);
+  EXPECT_EQ(material.get(OrenNayar::formula), OrenNayarFormula::report);
+  named(material_info("oren-nayar").fields, "formula", "published", material);
+  EXPECT_EQ(material.get(OrenNayar::formula), OrenNayarFormula::published);
+  named(material_info("glass").fields, "fresnel", "schlick", material);
+  EXPECT_EQ(material.get(Glass::fresnel), Fresnel::schlick);
+  named(material_info("glass").fields, "fresnel", "exact", material);
+  EXPECT_EQ(material.get(Glass::fresnel), Fresnel::exact);
 }
 
 // A method sets what it is made of, and nothing that is not an estimator.

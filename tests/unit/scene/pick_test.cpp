@@ -108,7 +108,7 @@ TEST(Pick, CutawayLooksThroughBacksThatAreNotGlass) {
   EXPECT_FALSE(pick_seen(scene, from_ball)) << "a ball's inside is its back";
   EXPECT_EQ(pick_seen(scene, down(2.2, 0.2))->object, wedge);
   EXPECT_EQ(pick_seen(scene, down(0, 0))->object, ball);
-  scene.materials = {{.name = "", .type = MaterialType::glass}};
+  scene.materials = {{.name = "", .type = "glass"}};
   EXPECT_EQ(pick_seen(scene, up)->object, wall);
   EXPECT_EQ(pick_seen(scene, from_ball)->object, ball);
 }

@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "material/list.h"
 #include "scene/fields.h"
 #include "scene/validate/validate.h"
 
@@ -52,9 +53,9 @@ TEST(SceneFile, HoldsWhatTheFileSays) {
   std::vector<std::string> names;
   for (const Material& material : scene.materials) names.push_back(material.name);
   EXPECT_EQ(names, (std::vector<std::string>{"white", "red", "green", "lamp", "mirror", "glass", "clay"}));
-  EXPECT_EQ(find_material(scene, "red")->reflectance, glm::dvec3(0.75, 0.15, 0.15));
-  EXPECT_EQ(find_material(scene, "lamp")->type, MaterialType::light);
-  EXPECT_EQ(find_material(scene, "lamp")->radiance, glm::dvec3(20));
+  EXPECT_EQ(find_material(scene, "red")->get(Matt::reflectance), glm::dvec3(0.75, 0.15, 0.15));
+  EXPECT_EQ(find_material(scene, "lamp")->type, "light");
+  EXPECT_EQ(find_material(scene, "lamp")->get(Light::radiance), glm::dvec3(20));
   EXPECT_EQ(find_material(scene, "wood"), nullptr);
   ASSERT_EQ(scene.spheres.size(), 4u);
   EXPECT_EQ(scene.spheres[0], (Sphere{"mirror", "mirror", {8.5, -3.6, -3.8}, 1.4}));
@@ -69,7 +70,7 @@ TEST(SceneFile, ReportIsTheHexagonWithAnOrenNayarSphere) {
   const Scene report = read_scene(scene_path("report.toml"));
   expected.name = report.name;
   for (Material& material : expected.materials)
-    if (material.name == "clay") material.type = MaterialType::oren_nayar, material.roughness = 0.6;
+    if (material.name == "clay") material.type = "oren-nayar", material.set(OrenNayar::roughness, 0.6);
   EXPECT_EQ(report, expected);
 }
 
@@ -81,8 +82,8 @@ TEST(SceneFile, FurnaceHasTheAnswerThatItStates) {
   ASSERT_EQ(furnace.polygons.size(), 6u);
   for (const Polygon& wall : furnace.polygons) {
     const Material& material = *find_material(furnace, wall.material);
-    EXPECT_EQ(material.type, MaterialType::lambertian);
-    const glm::dvec3 radiance = material.emission / (1.0 - material.reflectance);
+    EXPECT_EQ(material.type, "lambertian");
+    const glm::dvec3 radiance = material.get(Matt::emission) / (1.0 - material.get(Matt::reflectance));
     for (int channel = 0; channel < 3; ++channel)
       EXPECT_DOUBLE_EQ(radiance[channel], (std::array{1, 2, 4})[std::size_t(channel)]);
     const auto& v = wall.vertices;
@@ -102,10 +103,11 @@ TEST(SceneFile, FurnaceHasTheAnswerThatItStates) {
 template <class T>
 void set_other_value(const Field<T>& field, T& object) {
   const auto between = [&](double share) { return field.min + (field.max - field.min) * share; };
-  if (const auto* integer = std::get_if<int T::*>(&field.member)) object.** integer = static_cast<int>(field.max) - 1;
-  if (const auto* number = std::get_if<double T::*>(&field.member)) object.** number = between(1 / 3.0);
-  if (const auto* vector = std::get_if<glm::dvec3 T::*>(&field.member))
-    object.** vector = {between(1 / 3.0), between(1 / 7.0), between(1 / 11.0)};
+  if (const auto* integer = std::get_if<Value<T, int>>(&field.member))
+    integer->set(object, static_cast<int>(field.max) - 1);
+  if (const auto* number = std::get_if<Value<T, double>>(&field.member)) number->set(object, between(1 / 3.0));
+  if (const auto* vector = std::get_if<Value<T, glm::dvec3>>(&field.member))
+    vector->set(object, {between(1 / 3.0), between(1 / 7.0), between(1 / 11.0)});
   if (const auto* choice = std::get_if<Choice<T>>(&field.member))
     choice->set(object, (choice->get(object) + 1) % static_cast<int>(choice->names.size()));
 }
@@ -130,7 +132,7 @@ TEST(SceneFile, EveryFieldSurvivesWriting) {
   expect_all_survive(scene, sphere_fields(), [](Scene& s) -> Sphere& { return s.spheres[0]; });
   for (const MaterialInfo& info : material_infos()) {
     Scene typed = scene;
-    typed.materials[0].type = info.type;
+    typed.materials[0].type = info.name;
     expect_all_survive(typed, std::span<const Field<Material>>(info.fields),
                        [](Scene& s) -> Material& { return s.materials[0]; });
   }
@@ -138,7 +140,7 @@ TEST(SceneFile, EveryFieldSurvivesWriting) {
 
 TEST(SceneFile, ParametersThatTheTypeDoesNotReadComeBackAsDefaults) {
   Scene scene = small_scene();
-  scene.materials[0].ior = 2;
+  scene.materials[0].set(Glass::ior, 2);
   const std::string text = write_scene(scene);
   EXPECT_EQ(text.find("ior"), std::string::npos);
   EXPECT_EQ(parse_scene(text, "").materials[0], Material{.name = "white"});
@@ -182,17 +184,17 @@ Scene random_scene(std::mt19937_64& random) {
   scene.render.seed = static_cast<int>(below(1u << 31));
   for (std::size_t i = 0; i < material_infos().size() + below(4); ++i) {
     Material material{.name = "material " + std::to_string(random())};
-    material.type = material_infos()[i % material_infos().size()].type;
-    if (material.type != MaterialType::light && material.type != MaterialType::glass) material.reflectance = colour();
-    if (material.type == MaterialType::oren_nayar) material.roughness = unit();
-    if (material.type == MaterialType::lambertian) material.emission = colour() * 1e9;
-    if (material.type == MaterialType::glass) material.ior = 0.1 + unit();
-    if (material.type == MaterialType::light) material.radiance = colour() * 1e-300;
+    material.type = material_infos()[i % material_infos().size()].name;
+    if (material.type != "light" && material.type != "glass") material.set(Reflecting::reflectance, colour());
+    if (material.type == "oren-nayar") material.set(OrenNayar::roughness, unit());
+    if (material.type == "lambertian") material.set(Matt::emission, colour() * 1e9);
+    if (material.type == "glass") material.set(Glass::ior, 0.1 + unit());
+    if (material.type == "light") material.set(Light::radiance, colour() * 1e-300);
     scene.materials.push_back(material);
   }
   const auto not_glass = [&] {
     const std::size_t i = below(scene.materials.size());
-    return scene.materials[scene.materials[i].type == MaterialType::glass ? 0 : i].name;
+    return scene.materials[scene.materials[i].type == "glass" ? 0 : i].name;
   };
   for (std::size_t i = 0; i < 1 + below(5); ++i)
     scene.spheres.push_back({below(2) ? std::to_string(i) : "", not_glass(), random_vector(random), unit() + 1e-9});
@@ -255,8 +257,8 @@ TEST(Override, SetsAnyValue) {
   expected.camera.look_at.y = 0.5;
   expected.render.spp = 7;
   set_method(expected.render, Method::naive);
-  expected.materials[6].roughness = 0.25;
-  expected.materials[6].formula = OrenNayarFormula::report;
+  expected.materials[6].set(OrenNayar::roughness, 0.25);
+  expected.materials[6].set(OrenNayar::formula, OrenNayarFormula::report);
   expected.spheres[1].radius = 0.5;
   expected.spheres[3].radius = 0.75;
   expected.spheres[0].radius = 0.25;
@@ -292,15 +294,15 @@ TEST(Override, MakesMaterialsAfterThoseOfTheFile) {
   const Scene scene = with({"material.zinc.type=mirror", "material.zinc.reflectance=[0.5,0.5,0.6]",
                             "material.air.type=glass", "material.air.ior=1", "sphere.mirror.material=zinc"});
   ASSERT_EQ(scene.materials.size(), 9u);
-  EXPECT_EQ(find_material(scene, scene.spheres[0].material)->reflectance, glm::dvec3(0.5, 0.5, 0.6));
+  EXPECT_EQ(find_material(scene, scene.spheres[0].material)->get(Mirror::reflectance), glm::dvec3(0.5, 0.5, 0.6));
   EXPECT_EQ(scene.materials[6].name, "clay");
-  EXPECT_EQ(find_material(scene, "air")->ior, 1);
+  EXPECT_EQ(find_material(scene, "air")->get(Glass::ior), 1);
 }
 
 TEST(Override, AnotherTypeLeavesTheFilesParametersBehind) {
   const Scene scene = with({"material.clay.type=lambertian", "material.mirror.type=glass", "material.mirror.ior=1.2"});
-  EXPECT_EQ(scene.materials[6], (Material{.name = "clay", .type = MaterialType::lambertian}));
-  EXPECT_EQ(scene.materials[4], (Material{.name = "mirror", .type = MaterialType::glass, .ior = 1.2}));
+  EXPECT_EQ(scene.materials[6], (Material{.name = "clay", .type = "lambertian"}));
+  EXPECT_EQ(scene.materials[4], (Material{.name = "mirror", .type = "glass"}.with(Glass::ior, 1.2)));
   EXPECT_EQ(reread(scene), scene);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "material/list.h"
 #include "scene/fields.h"
 #include "unit/kernel/test_scenes.h"
 
@@ -21,7 +22,7 @@ TEST(Validate, NamesEveryProblem) {
   scene.camera.fov_y = 0;
   scene.image.width = 0;
   scene.render.spp = 0;
-  scene.materials[0].reflectance.y = 2;
+  scene.materials[0].set(Matt::reflectance, {0.5, 2, 0.5});
   scene.materials[0].name = "off white";
   scene.spheres[0].material = "off white";
   EXPECT_EQ(paths(scene), (Paths{"camera.fov_y", "image.width", "render.spp", "material.\"off white\".reflectance",
@@ -41,23 +42,25 @@ void expect_bounds_hold(std::span<const Field<T>> fields, Scene scene, T& (*sele
       object = before;
       return problems.size() == 1 && problems[0].path.ends_with(field.key);
     };
-    if (const auto* integer = std::get_if<int T::*>(&field.member)) {
-      object.** integer = static_cast<int>(field.min) - 1;
+    if (const auto* integer = std::get_if<Value<T, int>>(&field.member)) {
+      integer->set(object, static_cast<int>(field.min) - 1);
       EXPECT_TRUE(refused());
       if (field.max < std::numeric_limits<int>::max()) {
-        object.** integer = static_cast<int>(field.max) + 1;
+        integer->set(object, static_cast<int>(field.max) + 1);
         EXPECT_TRUE(refused());
       }
     }
     for (const double value :
          {outside[0], outside[1], outside[2], std::nextafter(field.min, -1e300), std::nextafter(field.max, 1e300)}) {
-      if (const auto* number = std::get_if<double T::*>(&field.member)) {
-        object.** number = value;
+      if (const auto* number = std::get_if<Value<T, double>>(&field.member)) {
+        number->set(object, value);
         EXPECT_TRUE(refused()) << value;
       }
       for (int i = 0; i < 3; ++i)
-        if (const auto* vector = std::get_if<dvec3 T::*>(&field.member)) {
-          (object.**vector)[i] = value;
+        if (const auto* vector = std::get_if<Value<T, dvec3>>(&field.member)) {
+          dvec3 v = vector->get(object);
+          v[i] = value;
+          vector->set(object, v);
           EXPECT_TRUE(refused()) << value << " in " << i;
         }
     }
@@ -72,15 +75,21 @@ TEST(Validate, EveryFieldKeepsItsRange) {
   expect_bounds_hold<Sphere>(sphere_fields(), scene, [](Scene& s) -> Sphere& { return s.spheres[0]; });
   for (const MaterialInfo& info : material_infos()) {
     Scene typed = scene;
-    typed.materials.push_back({.name = "other", .type = info.type});
+    typed.materials.push_back({.name = "other", .type = std::string(info.name)});
     expect_bounds_hold<Material>(info.fields, typed, [](Scene& s) -> Material& { return s.materials[2]; });
   }
 }
 
 TEST(Validate, ParametersThatTheTypeDoesNotReadMayBeAnything) {
   Scene scene = scene_of({{"ball", "white"}});
-  scene.materials[0].ior = -1;
+  scene.materials[0].set(Glass::ior, -1);
   EXPECT_EQ(paths(scene), Paths{});
+}
+
+TEST(Validate, TypesAreThoseThatThereAre) {
+  Scene scene = scene_of({{"ball", "white"}});
+  scene.materials[0].type = "wood";
+  EXPECT_EQ(paths(scene), Paths{"material.white.type"});
 }
 
 TEST(Validate, NamesOfOneKindDiffer) {
