@@ -28,8 +28,12 @@ std::string stem_of(const fs::path& file) {
   return is_picture(file) ? std::regex_replace(file.stem().string(), number, "") : file.stem().string();
 }
 
+/// Samples after which a picture that is black so far counts as black: fewer may have missed a small lamp.
+constexpr int enough_samples = 16;
+
 bool is_black(const Frame& frame) {
-  return std::ranges::all_of(frame.mean.rgb, [](float value) { return value == 0; });
+  return (frame.finished || frame.samples >= enough_samples) &&
+         std::ranges::all_of(frame.mean.rgb, [](float value) { return value == 0; });
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ struct ViewerState {
   bool inspect = false;  ///< the pixel under the mouse is told in numbers
   DragView drag_view = DragView::automatic;
   bool enclosed = false;  ///< the eye is in a closed room
-  bool black = false;     ///< all of the frame is
+  bool black = false;     ///< all of the frame is, and it has enough samples to say so
 };
 
 /// Whether a drag turns the view about the eye.
