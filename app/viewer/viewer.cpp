@@ -75,7 +75,8 @@ void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers
     if (control && letter == 'q') in.edits.quit = true;
     return;
   }
-  if (in.screen->flying()) return;
+  // Keys fly while the right button is held, from the moment on at which it goes down.
+  if (in.screen->flying() || glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) return;
   on_letter(in, letter, control, shift);
   if (key == GLFW_KEY_SPACE && !io.NavVisible) in.edits.toggle_pause = true;
   if (key == GLFW_KEY_HOME) in.edits.edit(*in.state).camera = in.state->opened_camera;
