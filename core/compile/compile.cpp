@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "compile/lowering.h"
-#include "material/list.h"
+#include "material/lobes.h"
 #include "scene/file/scene_file.h"
 #include "scene/validate/validate.h"
 
@@ -144,7 +144,7 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   auto& list = glass ? l.out.glass_spheres : around ? l.out.shells : l.out.spheres;
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   add_target(l, material, {c, sphere.radius}, surface, surface);
-  if (is_specular(material) && (glass || !around)) l.specular_spheres.push_back({&sphere, surface});
+  if (glass || !around) l.facing_spheres.push_back({&sphere, surface});
   if (is_lamp(material) && !around)
     l.lamps.push_back(
         {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
@@ -157,43 +157,29 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
          surface});
 }
 
-std::int32_t kind_of(const MaterialInfo& info) {
-  if (info.emits) return kind_light;
-  if (info.transmits) return kind_glass;
-  return info.lobe_class == LobeClass::delta ? kind_mirror : kind_diffuse;
-}
-
 void fill_surfaces(Lowering& l) {
-  Table<Column> table(static_cast<int>(l.surfaces.size()));
+  Table<Column> table(static_cast<int>(l.surfaces.size()), static_cast<int>(Column::count) + own_columns);
   for (std::size_t i = 0; i < l.surfaces.size(); ++i) {
     const Surface& s = l.surfaces[i];
     const Material& m = *s.material;
     const TableRow<Column> row{table, i};
     const MaterialInfo& info = material_info(m.type);
-    const std::int32_t kind = kind_of(info);
     const dvec3 radiance = info.radiance(m);
-    const SurfaceRow own = lower(m);
+    const ChosenLobe lobe = lower(m);
     row.set3(Column::normal_x, s.normal_or_center);
     row.set(Column::inverse_radius, s.inverse_radius);
-    row.set_int(Column::kind, kind);
+    row.set_int(Column::kind, lobe.kind);
     row.set3(Column::reflectance_r, info.albedo(m));
     row.set3(Column::emission_r, radiance);
-    row.set(Column::oren_nayar_a, own.oren_nayar_a);
-    row.set(Column::oren_nayar_b, own.oren_nayar_b);
-    row.set(Column::oren_nayar_report, own.oren_nayar_report ? 1 : 0);
-    row.set(Column::eon, own.eon ? 1 : 0);
-    row.set3(Column::eon_multiple_r, own.eon_multiple);
     row.set(Column::eta, s.eta);
-    row.set(Column::schlick, own.schlick ? 1 : 0);
-    if (info.lobe_class != LobeClass::cosine || own != SurfaceRow{}) l.features.insert(info.feature);
-    l.out.has_mirror |= kind == kind_mirror;
-    l.out.has_glass |= kind == kind_glass;
-    l.out.has_oren_nayar |= own.oren_nayar_b != 0 && !own.eon;
-    l.out.has_eon |= own.eon;
+    for (std::size_t k = 0; k < lobe.columns.size(); ++k)
+      row.set(lobe_column(lobe.first_column + static_cast<int>(k)), lobe.columns[k]);
+    l.out.lobes |= lobe.bit;
     l.out.has_glow |= !info.emits && radiance != dvec3{0};
     l.out.max_radiance = std::max({l.out.max_radiance, radiance.r, radiance.g, radiance.b});
   }
   l.out.surfaces = std::move(table);
+  l.out.has_glass = (l.out.lobes & transmitting_lobes) != 0;
 }
 
 /// What the kernel does and leaves out in this scene, in words.
@@ -210,8 +196,9 @@ void describe(Lowering& l) {
         "spheres that caustics are connected over");
   count(static_cast<std::size_t>(out.lamps.rows()), "piece of a lamp", "pieces of lamps");
   auto feature = [&](bool used, std::string_view what) { (used ? out.compiled_in : out.left_out).emplace_back(what); };
-  for (const MaterialInfo& info : material_infos())
-    if (!info.feature.empty()) feature(l.features.contains(info.feature), info.feature);
+  for_each_lobe([&]<class L>() {
+    if constexpr (requires { L::feature; }) feature((out.lobes & lobe_bit<L>) != 0, L::feature);
+  });
   feature(out.has_glow, "glowing surfaces");
   if (out.cutaway) out.compiled_in.emplace_back("a cutaway, and so caustics by chance alone");
   if (!out.room.empty() && !out.room_hides_lamps) out.left_out.emplace_back("shadow tests against the room");
@@ -222,7 +209,7 @@ void describe(Lowering& l) {
 CompiledScene compile(const Scene& scene) {
   if (const std::vector<Problem> problems = validate(scene); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
-  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}, {}};
+  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;

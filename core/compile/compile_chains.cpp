@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "compile/lowering.h"
+#include "material/lobes.h"
 
 namespace glimt {
 
@@ -48,11 +49,12 @@ void lower_chains(Lowering& l) {
       s.caustics == Caustics::off || l.out.lamps.rows() == 0)
     return;
   std::vector<ChainSphere>& chains = l.out.chain_spheres;
-  for (const auto& [sphere, surface] : l.specular_spheres) {
-    const Material& m = l.material(sphere->material);
-    const bool glass = transmits(m);
+  for (const auto& [sphere, surface] : l.facing_spheres) {
+    const auto kind = std::bit_cast<std::int32_t>(l.out.surfaces[Column::kind][surface]);
+    if ((lobe_of_kind(kind) & connecting_lobes) == 0 || !is_specular(l.material(sphere->material))) continue;
+    const bool glass = (lobe_of_kind(kind) & transmitting_lobes) != 0;
     if (is_in_room(l, *sphere))
-      chains.push_back({to_floats(sphere->center - l.origin), static_cast<float>(sphere->radius), surface,
+      chains.push_back({to_floats(sphere->center - l.origin), static_cast<float>(sphere->radius), surface, glass,
                         glass && is_empty(l, *sphere)});
   }
   std::ranges::stable_sort(chains, std::ranges::greater{}, &ChainSphere::radius);

@@ -17,41 +17,29 @@ struct Rgb {
   float r = 0, g = 0, b = 0;
 };
 
-/// Bits of Surface::kind.
-enum SurfaceKind : std::int32_t {
-  kind_diffuse = 1,  ///< Lambertian, or Oren-Nayar with its factors
-  kind_mirror = 2,
-  kind_glass = 4,
-  kind_light = 8,  ///< emits on its front, reflects nothing
-};
-
-/// Columns of the surface table. A surface is what a ray can hit: a face, a triangle or a sphere.
+/// Columns of the surface table that all surfaces have; those of the lobes follow (material/lobes.h). A surface is what
+/// a ray can hit: a face, a triangle or a sphere.
 enum class Column {
   normal_x,
   normal_y,
   normal_z,        ///< outward or front unit normal of a plane; the centre of a sphere
   inverse_radius,  ///< of a sphere; 0 for a plane
-  kind,            ///< bits of SurfaceKind as an int32
+  kind,            ///< of its lobe, as an int32; see material/lobes.h
   reflectance_r,
   reflectance_g,
   reflectance_b,
   emission_r,
   emission_g,
   emission_b,  ///< radiance of a light, or glow
-  oren_nayar_a,
-  oren_nayar_b,       ///< A and B of Oren-Nayar; 1 and 0 for Lambertian
-  oren_nayar_report,  ///< 1 where the report's formula is asked for
-  eon,                ///< 1 for EON; its A and roughness are then in the places of A and B
-  eon_multiple_r,
-  eon_multiple_g,
-  eon_multiple_b,  ///< weight of its light reflected many times, over the reflectance
-  eta,             ///< glass: index behind the surface over index in front of it
-  schlick,         ///< 1 where Schlick's Fresnel is asked for
-  lamp,            ///< first row of the lamp table that is a piece of this light, as int32; -1: none is
-  chain,           ///< of a sphere that connections pass over, as int32: 1 by reflection, 2 by refraction too; else 0
-  target,          ///< number of the mirror or glass that light paths may be aimed at, as int32; -1: none
+  eta,         ///< glass: index behind the surface over index in front of it
+  lamp,        ///< first row of the lamp table that is a piece of this light, as int32; -1: none is
+  chain,       ///< of a sphere that connections pass over, as int32: 1 by reflection, 2 by refraction too; else 0
+  target,      ///< number of the mirror or glass that light paths may be aimed at, as int32; -1: none
   count
 };
+
+/// One of the columns that belong to lobes.
+constexpr Column lobe_column(int number) { return static_cast<Column>(static_cast<int>(Column::count) + number); }
 
 /// Columns of the lamp table: parallelograms, rectangles and triangles p + a e1 + b e2, and spheres.
 enum class LampColumn {
@@ -107,8 +95,11 @@ template <class ColumnType>
 class Table {
  public:
   Table() : Table(0) {}
-  explicit Table(int rows)
-      : rows_(rows), stride_((rows + 31) / 32 * 32), data_(allocate(static_cast<std::size_t>(stride_) * columns)) {}
+  static constexpr int padding = 32;  ///< columns have a multiple of so many places
+  explicit Table(int rows, int columns = static_cast<int>(ColumnType::count))
+      : rows_(rows),
+        stride_((rows + padding - 1) / padding * padding),
+        data_(allocate(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(columns))) {}
 
   int rows() const { return rows_; }
   /// Floats from one column to the next.
@@ -117,7 +108,6 @@ class Table {
   const float* operator[](ColumnType c) const { return data_.get() + static_cast<std::ptrdiff_t>(c) * stride_; }
 
  private:
-  static constexpr std::size_t columns = static_cast<std::size_t>(ColumnType::count);
   struct Free {
     void operator()(float* p) const { std::free(p); }
   };
@@ -187,7 +177,7 @@ struct ChainSphere {
   std::array<float, 3> center;
   float radius;
   std::int32_t surface;
-  bool refracts;  ///< glass with nothing inside
+  bool glass, refracts;  ///< refracts: with nothing inside
 };
 
 struct CompiledScene {
@@ -214,7 +204,8 @@ struct CompiledScene {
   Table<AimColumn> aims;
   std::vector<int> lamp_edges;  ///< pixels that edges of lamps come near, in order; see kernel/lamps/lamp_edges.h
   std::vector<ChainSphere> chain_spheres;
-  bool has_mirror = false, has_glass = false, has_oren_nayar = false, has_eon = false;
+  std::uint32_t lobes = 0;        ///< that some surface has; a LobeSet of material/lobes.h
+  bool has_glass = false;         ///< light goes on behind some surface
   bool has_glow = false;          ///< reflecting surfaces with emission
   bool cutaway = false;           ///< camera rays look through backs; see kernel/geometry/cutaway.h
   int room_surfaces = 0;          ///< how many there are; they come first

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <bit>
-#include <set>
 
 #include "compile/compiled_scene.h"
 #include "compile/reach.h"
@@ -38,8 +37,8 @@ struct Target {
   int first_surface, last_surface;
 };
 
-/// A mirror or glass sphere that is met from outside.
-struct SpecularSphere {
+/// A sphere that is met from outside.
+struct FacingSphere {
   const Sphere* sphere;
   int surface;
 };
@@ -51,8 +50,7 @@ struct Lowering {
   std::vector<Surface> surfaces;
   std::vector<LampPiece> lamps;
   std::vector<Target> targets;
-  std::vector<SpecularSphere> specular_spheres;
-  std::set<std::string_view> features;  ///< MaterialInfo::feature of what is in use
+  std::vector<FacingSphere> facing_spheres;
   CompiledScene out;
 
   const Material& material(const std::string& name) const {

@@ -1,4 +1,4 @@
-#include "material/list.h"
+#include "material/lobes.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -14,7 +14,6 @@ MaterialInfo info_of() {
           .lobe_class = M::lobe_class,
           .transmits = M::transmits,
           .emits = M::emits,
-          .feature = M::feature,
           .albedo = M::albedo,
           .radiance = M::radiance_of,
           .refractive_index = M::refractive_index};
@@ -26,8 +25,8 @@ std::vector<MaterialInfo> infos_of(MaterialList<M...>) {
 }
 
 template <class... M>
-SurfaceRow lower_as(const Material& material, MaterialList<M...>) {
-  SurfaceRow row;
+ChosenLobe lower_as(const Material& material, MaterialList<M...>) {
+  ChosenLobe row;
   const auto lower_if = [&]<class One>(One) {
     if (material.type == One::name) One::lower(material, row);
   };
@@ -53,6 +52,6 @@ const MaterialInfo& material_info(std::string_view type) {
   return *info;
 }
 
-SurfaceRow lower(const Material& material) { return lower_as(material, AllMaterials{}); }
+ChosenLobe lower(const Material& material) { return lower_as(material, AllMaterials{}); }
 
 }  // namespace glimt

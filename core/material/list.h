@@ -1,5 +1,6 @@
 #pragma once
 
+#include "material/conductor.h"
 #include "material/eon.h"
 #include "material/glass.h"
 #include "material/lambertian.h"
@@ -12,10 +13,7 @@ namespace glimt {
 template <class... Materials>
 struct MaterialList {};
 
-/// Every material there is. scene/fields.h tells the rest of the program about them.
-using AllMaterials = MaterialList<Lambertian, OrenNayar, Eon, Mirror, Glass, Light>;
-
-/// What the material's type makes of its parameters.
-SurfaceRow lower(const Material& material);
+/// Every material there is. The rest of the program knows them by this list alone.
+using AllMaterials = MaterialList<Lambertian, OrenNayar, Eon, Mirror, Conductor, Glass, Light>;
 
 }  // namespace glimt

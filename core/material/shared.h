@@ -1,29 +1,15 @@
 #pragma once
 
-#include "scene/fields.h"
+#include "material/lobe.h"
 
 /// What several materials have.
 namespace glimt {
 
-/// What a material writes into its own columns of the surface table (compile/compiled_scene.h). A matt material that
-/// leaves all as they are is Lambertian.
-struct SurfaceRow {
-  double oren_nayar_a = 1, oren_nayar_b = 0;  ///< A and B of Oren-Nayar; A and roughness of EON
-  bool oren_nayar_report = false;
-  bool eon = false;
-  glm::dvec3 eon_multiple{0};
-  bool schlick = false;
-
-  bool operator==(const SurfaceRow&) const = default;
-};
-
 /// What holds of a material that says nothing else.
 struct AnyMaterial {
   static constexpr bool transmits = false, emits = false;
-  static constexpr std::string_view feature = {};
   static glm::dvec3 radiance_of(const Material&) { return glm::dvec3{0}; }
   static double refractive_index(const Material&) { return 1; }
-  static void lower(const Material&, SurfaceRow&) {}
 };
 
 /// A surface that reflects a given share of the light.

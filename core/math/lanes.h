@@ -284,6 +284,16 @@ xsimd::batch<std::uint32_t, A> reverse_bits(xsimd::batch<std::uint32_t, A> a) {
   return (a >> 16) | (a << 16);
 }
 
+/// A mask without any lane, and one with all.
+template <class F>
+Mask<F> no_lanes() {
+  return F(1.0f) < F(0.0f);
+}
+template <class F>
+Mask<F> all_lanes() {
+  return F(0.0f) < F(1.0f);
+}
+
 /// Consecutive elements from memory, one a lane; `V` is a lane type of float, int32 or uint32.
 template <class V, class T>
 V load(const T* from) {

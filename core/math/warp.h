@@ -61,4 +61,22 @@ Vec3<F> cosine_hemisphere(const Vec3<F>& n, F u, F v) {
   return normalize(fma(n, F(1.000001f), uniform_sphere(u, v)));
 }
 
+/// Right-handed axes about a unit normal, which is their z (Duff et al., "Building an orthonormal basis, revisited",
+/// JCGT 6(1), 2017).
+template <class F>
+struct Frame {
+  Vec3<F> x, y, z;
+
+  explicit Frame(const Vec3<F>& normal) : z(normal) {
+    const F sign = select(z.z < F(0.0f), F(-1.0f), F(1.0f));
+    const F k = F(-1.0f) * reciprocal(sign + z.z);
+    const F xy = z.x * z.y * k;
+    x = {fma(sign * z.x, z.x * k, F(1.0f)), sign * xy, F(0.0f) - sign * z.x};
+    y = {xy, fma(z.y, z.y * k, sign), F(0.0f) - z.y};
+  }
+
+  Vec3<F> to_local(const Vec3<F>& world) const { return {dot(x, world), dot(y, world), dot(z, world)}; }
+  Vec3<F> to_world(const Vec3<F>& local) const { return fma(x, local.x, fma(y, local.y, z * local.z)); }
+};
+
 }  // namespace glimt

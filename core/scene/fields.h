@@ -83,10 +83,10 @@ Field<Material> field() {
 
 /// How a material scatters light.
 enum class LobeClass {
+  cosine,  ///< matt: in all directions, with pdf_w = cos / pi
+  delta,   ///< in one direction, or one of two
+  glossy,  ///< about one direction, with a density of its own
   none,    ///< not at all
-  cosine,  ///< in all directions, drawn by the cosine
-  glossy,  ///< about one direction
-  delta,   ///< in single directions
 };
 
 /// A material type: what its file in core/material/ says of it.
@@ -97,7 +97,6 @@ struct MaterialInfo {
   LobeClass lobe_class;
   bool transmits;                               ///< light goes through it, so its shapes are closed
   bool emits;                                   ///< it is a lamp
-  std::string_view feature;                     ///< what the kernel does for it alone; may be empty
   glm::dvec3 (*albedo)(const Material&);        ///< share of the light that it scatters, per channel
   glm::dvec3 (*radiance)(const Material&);      ///< that it emits by itself, W/(m^2 sr)
   double (*refractive_index)(const Material&);  ///< absolute; 1 where nothing is refracted

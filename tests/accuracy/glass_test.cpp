@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "given_rays.h"
-#include "kernel/scattering/bsdf.h"
+#include "material/lobes.h"
 
 using namespace glimt;
 

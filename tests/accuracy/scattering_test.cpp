@@ -4,7 +4,7 @@
 
 #include "accuracy/diffuse_models.h"
 #include "given_rays.h"
-#include "kernel/scattering/bsdf.h"
+#include "kernel/scattering/surfaces.h"
 #include "pictures.h"
 #include "scene/file/scene_file.h"
 
@@ -29,31 +29,33 @@ Material diffuse(const std::string& type, double roughness, const dvec3& reflect
   return m;
 }
 
-/// The kernel's BRDF of a material, times pi, of the green channel.
-struct KernelModel {
-  bool eon;
-  float reflectance, a, b;
-  bool report;
-  V multiple;
-
-  explicit KernelModel(const Material& m) {
-    Scene scene;
-    scene.materials = {m};
-    scene.spheres = {{"", m.name, {0, 0, 0}, 1}};
-    const CompiledScene compiled = compile(scene);
-    const auto value = [&](Column c) { return compiled.surfaces[c][0]; };
-    eon = value(Column::eon) > 0;
-    reflectance = value(Column::reflectance_g);
-    a = value(Column::oren_nayar_a), b = value(Column::oren_nayar_b), report = value(Column::oren_nayar_report) > 0;
-    multiple = V::all(value(Column::eon_multiple_g));
+/// The kernel's BRDF of a material, times pi, of the green channel, at the normal z.
+class KernelModel {
+ public:
+  explicit KernelModel(const Material& m) : compiled_(compile(ball(m))), surfaces_(compiled_) {
+    at_.normal = {0, 0, 1};
+    at_.front = true;
+    at_.surface = 0;
+    surfaces_.look_up_kind(at_);
   }
   float factor(const V& wi, const V& wo) const {
-    return reflectance * (eon ? eon_factor<float>({a, b, multiple}, wi, wo, wi.z, wo.z).y
-                              : oren_nayar_factor<float>({a, b, report}, wi, wo, wi.z, wo.z));
+    return surfaces_.colour(at_).y * surfaces_.evaluate(at_, wi, wo, wi.z, wo.z).y;
   }
   double operator()(const Angles& w) const {
     return static_cast<double>(factor(direction(w.in, w.phi), direction(w.out, 0)));
   }
+
+ private:
+  static Scene ball(const Material& m) {
+    Scene scene;
+    scene.materials = {m};
+    scene.spheres = {{"", m.name, {0, 0, 0}, 1}};
+    return scene;
+  }
+
+  CompiledScene compiled_;
+  Surfaces<float, Features{}> surfaces_;
+  Interaction<float> at_{};
 };
 
 const std::vector<double> angles{0, 0.3, 0.7, 1.1, 1.4, 1.55};

@@ -4,7 +4,7 @@
 // out. Where the camera is in glass of index n, what gets out is n^2 E.
 #include <gtest/gtest.h>
 
-#include "kernel/scattering/bsdf.h"
+#include "material/lobes.h"
 #include "pictures.h"
 #include "samples.h"
 

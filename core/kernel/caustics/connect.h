@@ -4,8 +4,10 @@
 #include <bit>
 #include <vector>
 
+#include "kernel/caustics/found_chain.h"
 #include "kernel/caustics/sphere_chain.h"
-#include "kernel/scattering/shading.h"
+#include "kernel/entry/features.h"
+#include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 #include "kernel/transport/random.h"
 
@@ -18,7 +20,7 @@ namespace glimt {
 /// A diffuse surface that is connected, as the path there sees it.
 template <class F>
 struct ConnectionPoint {
-  Shading<F> at;
+  Interaction<F> at;
   Vec3<F> wo;
   Vec3<F> throughput;  ///< with the reflectance of x
   PathKey<F> key;
@@ -95,7 +97,7 @@ class Connector {
   }
 
   LampPoint choose_point(const ConnectionPoint<F>& p, int rays, int k) const {
-    const Sampler sampler = settings_of<features>(scene_).sampler;
+    const Sampler sampler = setting<features, &Settings::sampler>(scene_);
     const auto place = LatticePlace<F>::of(p.depth + I(1));
     const Point2<F> uv =
         random_pair<F>(sampler, p.key, place, static_cast<std::uint32_t>(HitDimension::lamp_u), rays, k);
@@ -137,14 +139,16 @@ class Connector {
   [[gnu::noinline]] void connect(int count) {
     ConnectionPoint<F> p;
     visit(p, []<class N>(N& value, auto& places) { value = load<N>(places.data()); });
+    if (surfaces_.has_rough_matt()) surfaces_.look_up_kind(p.at);
     const M active = less(lane_numbers<F>(), I(count));
-    const int rays = scene_.settings.shadow_rays;
+    const int rays = setting<features, &Settings::shadow_rays>(scene_);
     V found = V::all(F(0.0f));
     for (int k = 0; k < rays; ++k) {
       const LampPoint lamp = choose_point(p, rays, k);
       Choice choice{};
-      choice.left = random_number<F>(settings_of<features>(scene_).sampler, p.key, LatticePlace<F>::of(p.depth + I(1)),
-                                     static_cast<std::uint32_t>(HitDimension::roulette), rays, k);
+      choice.left =
+          random_number<F>(setting<features, &Settings::sampler>(scene_), p.key, LatticePlace<F>::of(p.depth + I(1)),
+                           static_cast<std::uint32_t>(HitDimension::roulette), rays, k);
       for (const ChainSphere& sphere : scene_.chain_spheres) offer_chains(p, lamp, sphere, active, choice);
       found = found + arriving(p, lamp, choice);
     }
@@ -162,7 +166,7 @@ class Connector {
 
   /// Where no limit of depth forbids so many surfaces and a lamp.
   M has_depth(const ConnectionPoint<F>& p, int surfaces) const {
-    const int limit = settings_of<features>(scene_).max_depth;
+    const int limit = setting<features, &Settings::max_depth>(scene_);
     return limit > 0 ? less(p.depth, I(limit - 1 - surfaces)) : M(F(0.0f) < F(1.0f));
   }
 
@@ -184,14 +188,15 @@ class Connector {
       const F cos_x = dot(chain.from_x, p.at.normal), cos_y = dot(chain.from_y, lamp.on.normal);
       const M lit = active & has_depth(p, surfaces) & chain.exists & (cos_x > F(0.0f)) & (cos_y > F(0.0f));
       const F chance = cos_x * F(std::numbers::inv_pi_v<float>) * chosen;
-      const F lamps = F(static_cast<float>(scene_.settings.shadow_rays)) * chain.tube * reciprocal(cos_y);
+      const F lamps =
+          F(static_cast<float>(setting<features, &Settings::shadow_rays>(scene_))) * chain.tube * reciprocal(cos_y);
       const F light = chance * reciprocal(fma(chance, lamp.inverse_pdf_a, lamps));
       choice.offer(chain, lit & (light > F(0.0f)), light, colour, sphere);
     };
     const SphereChain<F> reflected = reflected_chain(plane, x, y);
-    if (std::bit_cast<std::int32_t>(of_surface(Column::kind)) == kind_mirror) return offer(reflected, F(1.0f), 1);
+    if (!sphere.glass) return offer(reflected, F(1.0f), 1);
     const F eta(of_surface(Column::eta));
-    const M schlick = F(of_surface(Column::schlick)) > F(0.5f);
+    const M schlick = F(of_surface(smooth_glass_schlick)) > F(0.5f);
     const auto share = [&](F cos) { return fresnel(cos, eta, reciprocal(eta), schlick).reflected; };
     offer(reflected, share(reflected.cos_theta), 1);
     if (!sphere.refracts) return;
@@ -211,8 +216,8 @@ class Connector {
                                        lamp.first_surface, lamp.last_surface);
     V weight = lamp.weight * choice.colour * choice.sum;
     // Lanes without a chain may hold values that are no numbers.
-    if (surfaces_.has_rough())
-      weight = weight * surfaces_.diffuse_factor(p.at, choice.from_x, p.wo, dot(choice.from_x, p.at.normal));
+    if (surfaces_.has_rough_matt())
+      weight = weight * surfaces_.evaluate_matt(p.at, choice.from_x, p.wo, dot(choice.from_x, p.at.normal), p.at.cos_o);
     return select(lit, weight, V::all(F(0.0f)));
   }
 

@@ -1,10 +1,14 @@
 #pragma once
 
 #include "kernel/caustics/sphere_chain.h"
-#include "kernel/scattering/shading.h"
+#include "kernel/entry/features.h"
+#include "kernel/scattering/surfaces.h"
 
 /// Chains over a sphere that a path from the camera finds by chance, which connections find too (connect.h).
 namespace glimt {
+
+/// Whether a clear glass sphere asks for Schlick's Fresnel.
+inline constexpr Column smooth_glass_schlick = lobe_column(first_column<SmoothGlassLobe>() + SmoothGlassLobe::schlick);
 
 /// How far a path has come from a diffuse surface; `reflected` and `refracted` are complete chains.
 enum ChainStage : std::int32_t { chain_none, chain_open, chain_inside, chain_reflected, chain_refracted };
@@ -18,7 +22,7 @@ struct FoundChain {
   /// The next surface, `distance` away. `opens`: a diffuse one that is connected; `crosses`: the path goes on behind
   /// it. Diffuse surfaces note pdf_w themselves.
   template <Features features>
-  void follow(const Surfaces<F, features>& surfaces, const Ray<F>& ray, const Shading<F>& at, F distance,
+  void follow(const Surfaces<F, features>& surfaces, const Ray<F>& ray, const Interaction<F>& at, F distance,
               const Mask<F>& opens, const Mask<F>& crosses) {
     using I = Int<F>;
     const I kind = as_int(surfaces.value(Column::chain, at));
@@ -41,8 +45,8 @@ struct FoundChain {
 /// What counts of a lamp that a complete chain has come to along `ray`, which leaves the sphere. The lamp has that row.
 template <class F, Features features>
 F chance_share(const CompiledScene& scene, const Surfaces<F, features>& surfaces, const FoundChain<F>& chain,
-               const Ray<F>& ray, const Shading<F>& lamp, const Int<F>& row) {
-  Shading<F> sphere = lamp;
+               const Ray<F>& ray, const Interaction<F>& lamp, const Int<F>& row) {
+  Interaction<F> sphere = lamp;
   sphere.surface =
       select(less(ray.from, Int<F>(0)), Int<F>(0), ray.from);  // lanes that are on no surface have no chain
   const Vec3<F> center = surfaces.vector(Column::normal_x, sphere), way = lamp.point - center;
@@ -55,17 +59,18 @@ F chance_share(const CompiledScene& scene, const Surfaces<F, features>& surfaces
     const Mask<F> refracted = equal(chain.stage, Int<F>(chain_refracted));
     const F eta = surfaces.value(Column::eta, sphere);
     const Dielectric<F> interface =
-        fresnel(cos, eta, reciprocal(eta), surfaces.value(Column::schlick, sphere) > F(0.5f));
+        fresnel(cos, eta, reciprocal(eta), surfaces.value(smooth_glass_schlick, sphere) > F(0.5f));
     const SphereLens<F> lens = sphere_lens(eta);
     const F cos_omega = select(eta > F(1.0f), cos, interface.cos_t);
     tube = select(refracted, refracted_ray(lens, x, y, b * reciprocal(lens.outside), cos_omega).tube, tube);
     const F passed = F(1.0f) - interface.reflected;
-    const Mask<F> glass = equal(as_int(surfaces.value(Column::kind, sphere)), Int<F>(kind_glass));
+    const Mask<F> glass = equal(as_int(surfaces.value(Column::kind, sphere)), Int<F>(lobe_kind<SmoothGlassLobe>));
     chosen = select(glass, select(refracted, passed * passed, interface.reflected), chosen);
   }
   const LampRow<F, false> piece{scene, row};
   const F chance = chain.pdf_w * chosen * (piece[LampColumn::inverse_choice] * area_left_out(piece));
-  const F connections = F(static_cast<float>(scene.settings.shadow_rays)) * tube * reciprocal(lamp.cos_o);
+  const F connections =
+      F(static_cast<float>(setting<features, &Settings::shadow_rays>(scene))) * tube * reciprocal(lamp.cos_o);
   const F share = chance * reciprocal(chance + connections);
   // No number where a grazing ray has no finite tube; connections leave it to chance.
   return select(share >= F(0.0f), share, F(1.0f));

@@ -44,10 +44,10 @@ template <class F, Features features, class Surfaces>
   // Each surface is looked through once.
   for (int passed = 0; passed <= scene.surfaces.rows(); ++passed) {
     hit = closest_hit<F, features>(scene, rest);
-    const auto at = surfaces.shade(rest, hit);
+    const auto at = surfaces.meet(rest, hit);
     const Mask<F> flat = surfaces.is_flat(at);
     const Mask<F> wall = less(at.surface, Int<F>(scene.room_surfaces));
-    const Mask<F> met = from_eye & !passes & (hit.t < F(inf)) & !equal(at.kind, Int<F>(kind_glass));
+    const Mask<F> met = from_eye & !passes & (hit.t < F(inf)) & !surfaces.transmits(at);
     const Mask<F> back = met & ((flat & !at.front & !wall) | ((hit.t < F(0.0f)) & !flat));
     if (!any(back)) break;
     // A sphere is met by rays towards its centre: past that, it is left behind.
@@ -64,7 +64,7 @@ template <class F, Features features, class Surfaces>
 /// The first surface along each ray of a path, whose first ray is the camera's.
 template <class F, Features features, class Surfaces>
 Hit<F> path_hit(const CompiledScene& scene, const Surfaces& surfaces, const Ray<F>& ray, const Mask<F>& from_eye) {
-  if constexpr (features.rare)
+  if constexpr (features.rare_shapes)
     if (scene.cutaway) return cutaway_hit<F, features>(scene, surfaces, ray, from_eye);
   return closest_hit<F, features>(scene, ray);
 }

@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 
+#include "kernel/entry/features.h"
 #include "kernel/lamps/light.h"
 
 /// Rays against the compiled scene. Nothing here uses an epsilon; a ray never hits again what it leaves, because
@@ -11,16 +12,6 @@
 ///  - a polygon or triangle is not tested against rays that start on it;
 ///  - inside the glass that a ray starts on, only the far side is looked for.
 namespace glimt {
-
-/// What the kernel is compiled for. What a scene does not use costs nothing there: neither time nor registers.
-struct Features {
-  bool small_table;        ///< no more surfaces than lookup_small can hold
-  bool one_parallelogram;  ///< the only lamp
-  bool oren_nayar;
-  bool caustics;  ///< light paths or connections over spheres, or the setting is not `on`
-  bool rare;      ///< glow, triangles, glass solids, spheres around the camera, lamps that reach out of the room, EON,
-                  ///< a cutaway; settings other than the defaults
-};
 
 /// A ray in compiled space; `direction` is of unit length.
 template <class F>
@@ -178,7 +169,7 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
     const SolidSpan<F> span = solid_span(scene, solid, ray);
     const Mask<F> crosses = span.near_t <= span.far_t;
     Mask<F> enters = crosses & (span.near_t > F(0.0f)) & (span.near_t < hit.t);
-    if (features.rare && solid.glass) {
+    if (features.rare_shapes && solid.glass) {
       Mask<F> starts_on;
       const Mask<F> inside = starts_inside(scene, solid, ray, span, starts_on);
       const Mask<F> leaves = inside & (span.far_t < hit.t);
@@ -199,7 +190,7 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
     const F t = glass_sphere_t(sphere, ray);
     take(hit, (t > F(0.0f)) & (t < hit.t), t, sphere.surface);
   }
-  if (!features.rare) return hit;
+  if (!features.rare_shapes) return hit;
   for (const TriangleShape& triangle : scene.triangles) {
     Mask<F> inside;
     const F t = triangle_t(triangle, ray, inside);
@@ -213,7 +204,7 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
   return hit;
 }
 
-/// Whether something lies between a ray's origin, which is on no glass, and the point of a lamp at `distance`. The
+/// Whether something lies between a ray's origin and the point of a lamp at `distance`. The
 /// surfaces from `first` to `last` are the lamp's own and do not count, nor do others of a convex solid that has them.
 /// `to_any`: the point is anywhere, so the lamps count too.
 template <class F, Features features, bool to_any = false>
@@ -241,8 +232,11 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
     if (solid.first_surface == only) continue;
     const SolidSpan<F> span = solid_span(scene, solid, ray);
     Mask<F> crosses = (span.near_t <= span.far_t) & (span.near_t > F(0.0f)) & (span.near_t < distance);
-    if (features.rare && solid.glass)
-      crosses = crosses | ((span.near_t <= F(0.0f)) & (span.far_t > F(0.0f)) & (span.far_t < distance));
+    if (features.rare_shapes && solid.glass) {
+      Mask<F> starts_on;
+      const Mask<F> inside = starts_inside(scene, solid, ray, span, starts_on);
+      crosses = (crosses & !inside & !starts_on) | (inside & (span.far_t < distance));
+    }
     hide_range(crosses, solid.first_surface, solid.last_surface);
   }
   for (const SphereShape& sphere : scene.spheres) {
@@ -255,7 +249,7 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
     const F t = glass_sphere_t(sphere, ray);
     hide((t > F(0.0f)) & (t < distance), sphere.surface);
   }
-  if (!features.rare) return hidden;
+  if (!features.rare_shapes) return hidden;
   for (const TriangleShape& triangle : scene.triangles) {
     if (triangle.surface == only) continue;
     Mask<F> inside;

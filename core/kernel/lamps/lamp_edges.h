@@ -7,7 +7,7 @@
 
 #include "kernel/geometry/camera.h"
 #include "kernel/geometry/cutaway.h"
-#include "kernel/scattering/shading.h"
+#include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
 /// Pixels that an edge of a lamp crosses. A lamp is so bright beside what it lights that there the error is nearly all
@@ -64,9 +64,9 @@ class LampEdges {
   /// Of a lamp that the ray sees first.
   V emission(const V& direction) const {
     const Ray<F> ray{broadcast<F>(scene_.camera.eye), direction, I(-1)};
-    const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, ray, F(0.0f) < F(1.0f));
-    const Shading<F> at = surfaces_.shade(ray, hit);
-    const M shines = (hit.t < F(std::numeric_limits<float>::infinity())) & equal(at.kind, I(kind_light)) & at.front;
+    const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, ray, all_lanes<F>());
+    const Interaction<F> at = surfaces_.meet(ray, hit);
+    const M shines = (hit.t < F(std::numeric_limits<float>::infinity())) & surfaces_.is_lamp(at) & at.front;
     return select(shines, surfaces_.vector(Column::emission_r, at), V::all(F(0.0f)));
   }
 

@@ -238,14 +238,9 @@ struct SphereCone {
     const F cos = F(1.0f) - one_minus_cos;
     const F sin2 = one_minus_cos * (F(1.0f) + cos);
     const F sin = sqrt(sin2);
-    // A frame about the axis (Duff et al., "Building an orthonormal basis, revisited", JCGT 2017).
-    const F sign = select(axis.z < F(0.0f), F(-1.0f), F(1.0f));
-    const F k = F(-1.0f) * reciprocal(sign + axis.z);
-    const F xy = axis.x * axis.y * k;
-    const Vec3<F> t1{fma(sign * axis.x, axis.x * k, F(1.0f)), sign * xy, F(0.0f) - sign * axis.x};
-    const Vec3<F> t2{xy, fma(axis.y, axis.y * k, sign), F(0.0f) - axis.y};
+    const Frame<F> frame(axis);
     const SinCos<F> turn = sincos_turns(v);
-    const Vec3<F> direction = fma(t1, sin * turn.cos, fma(t2, sin * turn.sin, axis * cos));
+    const Vec3<F> direction = frame.to_world({sin * turn.cos, sin * turn.sin, cos});
     const F half_chord = sqrt(radius * radius - distance * distance * sin2);
     return {direction, max(fma(distance, cos, F(0.0f) - half_chord), F(0.0f))};
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernel/geometry/squares.h"
-#include "kernel/scattering/shading.h"
+#include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
 /// The four pixels of a square share the ends of their paths. A path has a first diffuse surface x and, where it then
@@ -52,16 +52,8 @@ class TailSharing {
  public:
   TailSharing(const CompiledScene& scene, TailTable& table) : scene_(scene), surfaces_(scene), table_(table) {}
 
-  /// Whether a diffuse surface sends the same light in all directions.
-  M is_matt(const Shading<F>& at) const {
-    if (!surfaces_.has_rough()) return F(0.0f) < F(1.0f);
-    const M even =
-        (surfaces_.value(Column::oren_nayar_a, at) >= F(1.0f)) & !(surfaces_.value(Column::oren_nayar_b, at) > F(0.0f));
-    return surfaces_.has_eon() ? even & !(surfaces_.value(Column::eon, at) > F(0.5f)) : even;
-  }
-
   /// Notes the x of the paths in the mask and the surface after it, which is their y where `is_y`.
-  void add(const FirstDiffuse<F>& x, const Shading<F>& y, const M& is_y, const I& place, const M& mask) {
+  void add(const FirstDiffuse<F>& x, const Interaction<F>& y, const M& is_y, const I& place, const M& mask) {
     const auto next = static_cast<std::size_t>(count_);
     const auto keep = [&](const V& v, std::size_t c) {
       compress<F, F>(v.x, mask, &numbers_[c][next]);
@@ -71,7 +63,7 @@ class TailSharing {
     keep(x.ray.origin, T::x_point);
     keep(x.throughput, T::x_throughput);
     keep(y.point, T::y_point);
-    if (surfaces_.has_rough()) keep(x.wo, T::x_wo);
+    if (surfaces_.has_rough_matt()) keep(x.wo, T::x_wo);
     compress<I, F>(x.of_class, mask, &integers_[T::x_class][next]);
     compress<I, F>(side(x.ray.from, x.front), mask, &integers_[T::x_side][next]);
     compress<I, F>(select(is_y, side(y.surface, y.front), I(T::none)), mask, &integers_[T::y_side][next]);
@@ -97,7 +89,7 @@ class TailSharing {
     const auto move = [&](const auto& from, auto& to) {
       for (std::size_t i = 0; i < count; ++i) to[static_cast<std::size_t>(place_[i])] = from[i];
     };
-    for (std::size_t c = 0; c < (surfaces_.has_rough() ? T::number_count : T::x_wo); ++c)
+    for (std::size_t c = 0; c < (surfaces_.has_rough_matt() ? T::number_count : T::x_wo); ++c)
       move(numbers_[c], table_.numbers[c]);
     for (std::size_t c = 0; c < T::integer_count; ++c) move(integers_[c], table_.integers[c]);
     count_ = 0;
@@ -110,9 +102,9 @@ class TailSharing {
   I integer(T::Integer column, int place) const { return load<I>(table_.integers[column].data() + place); }
 
   /// A surface that was noted; any where there is none.
-  Shading<F> surface(T::Number point, T::Integer column, int place) const {
+  Interaction<F> surface(T::Number point, T::Integer column, int place) const {
     const I side = integer(column, place), known = select(less(side, I(0)), I(0), side);
-    Shading<F> at;
+    Interaction<F> at;
     at.point = vector(point, place);
     at.surface = known >> 1;
     at.front = equal(known & I(1), I(1));
@@ -123,17 +115,20 @@ class TailSharing {
   /// All tails of as many squares as there are lanes.
   void share_squares(int first, int plane, Sums& sums) const {
     const auto place = [&](std::size_t member) { return first + static_cast<int>(member) * plane; };
-    std::array<Shading<F>, members> x;
+    std::array<Interaction<F>, members> x;
     std::array<V, members> got;
     for (std::size_t k = 0; k < members; ++k) {
       x[k] = surface(T::x_point, T::x_side, place(k));
-      if (surfaces_.has_rough()) x[k].cos_o = dot(vector(T::x_wo, place(k)), x[k].normal);
+      if (surfaces_.has_rough_matt()) {
+        surfaces_.look_up_kind(x[k]);
+        x[k].cos_o = dot(vector(T::x_wo, place(k)), x[k].normal);
+      }
       got[k] = V::all(F(0.0f));
     }
     for (std::size_t j = 0; j < members; ++j) {
       const M tailed = less(I(T::none), integer(T::y_side, place(j)));
       if (!any(tailed)) continue;
-      const Shading<F> y = surface(T::y_point, T::y_side, place(j));
+      const Interaction<F> y = surface(T::y_point, T::y_side, place(j));
       const I of_class = integer(T::x_class, place(j));
       std::array<F, members> pdf_a;  // with which x would have found y, times pi
       std::array<V, members> way;
@@ -156,8 +151,9 @@ class TailSharing {
       for (std::size_t k = 0; k < members; ++k) {
         V light = tail * pdf_a[k];
         if (k == j) light = light + sums.load(Sums::alone, place(j));
-        if (surfaces_.has_rough())
-          light = light * surfaces_.diffuse_factor(x[k], way[k], vector(T::x_wo, place(k)), dot(way[k], x[k].normal));
+        if (surfaces_.has_rough_matt())
+          light = light * surfaces_.evaluate_matt(x[k], way[k], vector(T::x_wo, place(k)), dot(way[k], x[k].normal),
+                                                  x[k].cos_o);
         // Other lanes may hold values that are no numbers.
         got[k] = got[k] + select(pdf_a[k] > F(0.0f), light, V::all(F(0.0f)));
       }

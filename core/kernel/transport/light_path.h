@@ -3,16 +3,17 @@
 #include <bit>
 #include <numeric>
 
+#include "kernel/entry/features.h"
 #include "kernel/geometry/pinhole.h"
 #include "kernel/lamps/emission.h"
-#include "kernel/scattering/shading.h"
-#include "kernel/transport/random.h"
+#include "kernel/scattering/surfaces.h"
+#include "kernel/transport/hit_numbers.h"
 #include "kernel/transport/results.h"
 #include "kernel/transport/trace.h"
 
-/// Light paths, for caustics on what the camera sees directly: from a lamp to a mirror or glass, on through others, and
-/// from each diffuse surface after that straight to the pinhole (Arvo, "Backward ray tracing", 1986; Dutre, Lafortune
-/// and Willems, "Monte Carlo light tracing with direct computation of pixel intensities", 1993).
+/// Light paths, for caustics on what the camera sees directly: from a lamp to a specular or glossy surface, on through
+/// others, and from each matt surface after that straight to the pinhole (Arvo, "Backward ray tracing", 1986; Dutre,
+/// Lafortune and Willems, "Monte Carlo light tracing with direct computation of pixel intensities", 1993).
 namespace glimt {
 
 /// The state of one light path a lane, between two surfaces.
@@ -60,25 +61,20 @@ class LightPathTracer {
  private:
   int end() const { return block_.first_path + block_.paths; }
 
-  Point2<F> pair(const LightPathState<F>& s, HitDimension dimension) const {
-    return random_pair<F>(settings().sampler, s.key, LatticePlace<F>::of(s.depth + I(2)),
-                          static_cast<std::uint32_t>(dimension));
-  }
-  F number(const LightPathState<F>& s, HitDimension dimension) const {
-    return random_number<F>(settings().sampler, s.key, LatticePlace<F>::of(s.depth + I(2)),
-                            static_cast<std::uint32_t>(dimension));
+  HitNumbers<F> numbers_of(const LightPathState<F>& s) const {
+    return {set<&Settings::sampler>(), s.key, LatticePlace<F>::of(s.depth + I(2))};
   }
 
   /// All passes of a half share one sequence, until its index would not fit.
   PathKey<F> first_key_of(const I& path) const {
-    const std::uint32_t seed = static_cast<std::uint32_t>(scene_.settings.seed) + light_path_seeds;
-    if (!has_sequences(settings().sampler))
-      return first_key<F>(settings().sampler, seed, as_uint(path), U(block_.sample));
+    const std::uint32_t seed = static_cast<std::uint32_t>(set<&Settings::seed>()) + light_path_seeds;
+    const Sampler sampler = set<&Settings::sampler>();
+    if (!has_sequences(sampler)) return first_key<F>(sampler, seed, as_uint(path), U(block_.sample));
     const auto count = static_cast<std::uint32_t>(scene_.light_paths);
     const std::uint32_t passes = std::max(1u, longest_sequence / count);
     const std::uint32_t pass = block_.sample / 2, half = block_.sample % 2;
     const U index = as_uint(path) + U(pass % passes * count);
-    return first_key<F>(settings().sampler, seed, U(pass / passes), U(index + index + U(half)));
+    return first_key<F>(sampler, seed, U(pass / passes), U(index + index + U(half)));
   }
 
   void begin_paths(LightPathState<F>& s, const M& idle, int next) const {
@@ -86,8 +82,9 @@ class LightPathTracer {
     s.depth = select(idle, I(-1), s.depth);
     const PathKey<F> key = first_key_of(s.path);
     s.key = {select(idle, key.a, s.key.a), select(idle, key.b, s.key.b), select(idle, key.index, s.key.index)};
-    const I row = choose_aim<F, features>(scene_, number(s, HitDimension::lamp));
-    const Point2<F> on_lamp = pair(s, HitDimension::lamp_u), to_target = pair(s, HitDimension::direction_u);
+    const HitNumbers<F> numbers = numbers_of(s);
+    const I row = choose_aim<F, features>(scene_, numbers.number(HitDimension::lamp));
+    const Point2<F> on_lamp = numbers.pair(HitDimension::lamp_u), to_target = numbers.pair(HitDimension::direction_u);
     const Emission<F> emission = emit<F, features>(scene_, row, on_lamp, to_target);
     s.ray = {select(idle, emission.origin, s.ray.origin), select(idle, emission.direction, s.ray.direction),
              select(idle, emission.surface, s.ray.from)};
@@ -100,43 +97,37 @@ class LightPathTracer {
   /// One surface for every lane; returns the lanes whose paths end there.
   M step(LightPathState<F>& s) {
     const Hit<F> hit = closest_hit<F, features>(scene_, s.ray);
-    const Shading<F> at = surfaces_.shade(s.ray, hit);
+    const Interaction<F> at = surfaces_.meet(s.ray, hit);
     const M aimed = equal(as_int(surfaces_.value(Column::target, at)), s.target) | less(I(0), s.depth);
     const M met = hit.t < F(std::numeric_limits<float>::infinity());
-    M ended = equal(at.kind, I(kind_light)) | !(met & aimed);
+    M ended = surfaces_.is_lamp(at) | !(met & aimed);
     // The lamp is a surface too.
-    if (settings().max_depth > 0) ended = ended | !less(s.depth, I(settings().max_depth - 1));
-    const V reflectance = surfaces_.reflectance(at);
-    s.flux = s.flux * reflectance;
+    const int max_depth = set<&Settings::max_depth>();
+    if (max_depth > 0) ended = ended | !less(s.depth, I(max_depth - 1));
+    const V colour = surfaces_.colour(at);
+    s.flux = s.flux * colour;
     const V way_back = s.ray.direction * F(-1.0f);
-    const M diffuse = equal(at.kind, I(kind_diffuse)) & !ended;
-    const Point2<F> uv = pair(s, HitDimension::direction_u);
-    V direction = s.ray.direction;
-    if (any(diffuse)) {
-      splat(s, at, way_back, diffuse & less(s.path, I(end())));
-      const V wo = cosine_hemisphere(at.normal, uv.u, uv.v);
-      if (surfaces_.has_rough())
-        s.flux = s.flux * select(diffuse, surfaces_.diffuse_factor(at, way_back, wo, at.cos_o, dot(wo, at.normal)),
-                                 V::all(F(1.0f)));
-      direction = select(diffuse, wo, direction);
-    }
-    if (scene_.has_mirror)
-      direction = select(equal(at.kind, I(kind_mirror)), surfaces_.mirrored(s.ray.direction, at), direction);
-    if (scene_.has_glass)
-      direction = select(equal(at.kind, I(kind_glass)), surfaces_.scatter_glass(s.ray.direction, at, uv.u).direction,
-                         direction);
-    s.ray = {at.point, direction, at.surface};
-    const F survival = min(max_component(reflectance), F(largest_survival));
-    const M plays = diffuse | !less(s.depth, I(scene_.settings.roulette_depth));
-    ended = ended | (plays & !(number(s, HitDimension::roulette) < survival));
+    const M matt = surfaces_.is_matt(at) & !ended;
+    if (any(matt)) splat(s, at, way_back, matt & less(s.path, I(end())));
+
+    // BSDFs are symmetric but for the factor n^2, which flux does not have, so directions are chosen as on camera
+    // paths.
+    const HitNumbers<F> numbers = numbers_of(s);
+    const Point2<F> uv = numbers.pair(HitDimension::direction_u);
+    const ScatterSample<F> next = surfaces_.sample(at, way_back, uv, surfaces_.has_glossy() ? numbers.lobe() : F(0.0f));
+    s.flux = s.flux * next.weight;
+    s.ray = {at.point, next.direction, at.surface};
+    const F survival = min(max_component(colour), F(largest_survival));
+    const M plays = matt | !less(s.depth, I(set<&Settings::roulette_depth>()));
+    ended = ended | (plays & !(numbers.number(HitDimension::roulette) < survival)) | !(max_component(s.flux) > F(0.0f));
     s.flux = s.flux * select(plays, reciprocal(survival), F(1.0f));
     s.key = skip_dimensions<F>(s.key, hit_block);
     s.depth = s.depth + I(1);
     return ended;
   }
 
-  /// What a diffuse surface sends through the pinhole.
-  void splat(const LightPathState<F>& s, const Shading<F>& at, const V& wi, const M& diffuse) {
+  /// What a matt surface sends through the pinhole.
+  void splat(const LightPathState<F>& s, const Interaction<F>& at, const V& wi, const M& matt) {
     const V way = broadcast<F>(scene_.camera.eye) - at.point;
     const F distance2 = dot(way, way);
     const F inverse = inverse_sqrt(distance2);
@@ -145,13 +136,13 @@ class LightPathTracer {
     const F cos = dot(wo, at.normal);
     const V from_eye = wo * F(-1.0f);
     const Projection<F> image = project(scene_, from_eye);
-    M seen = diffuse & image.inside & (cos > F(0.0f));
+    M seen = matt & image.inside & (cos > F(0.0f));
     if (!any(seen)) return;
     seen = seen & !occluded<F, features, true>(scene_, {at.point, wo, at.surface}, distance, I(0), I(-1));
     const F importance = pinhole_importance(scene_, from_eye, distance, cos);
     const F weight = importance * light_path_share(scene_, importance) * F(std::numbers::inv_pi_v<float>);
     V radiance = s.flux * weight;
-    if (surfaces_.has_rough()) radiance = radiance * surfaces_.diffuse_factor(at, wi, wo, at.cos_o, cos);
+    if (surfaces_.has_rough_matt()) radiance = radiance * surfaces_.evaluate_matt(at, wi, wo, at.cos_o, cos);
     done_.add(radiance, image.pixel, seen, writer());
   }
 
@@ -159,7 +150,11 @@ class LightPathTracer {
     return [&splats = splats_](std::int32_t pixel, float r, float g, float b) { splats.push_back({pixel, r, g, b}); };
   }
 
-  const Settings& settings() const { return settings_of<features>(scene_); }
+  /// The value of a setting.
+  template <auto member>
+  auto set() const {
+    return setting<features, member>(scene_);
+  }
 
   static constexpr std::uint32_t light_path_seeds = 1u << 31;  ///< apart from all seeds of camera paths
   static constexpr std::uint32_t longest_sequence = 1u << 30;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compile/compiled_scene.h"
+#include "material/lobes.h"
 #include "scene/file/scene_file.h"
 #include "scene_parts.h"
 
@@ -29,6 +30,11 @@ Scene lit_box() {
   return scene;
 }
 
+template <class L>
+bool has(const CompiledScene& scene) {
+  return (scene.lobes & lobe_bit<L>) != 0;
+}
+
 TEST(Compile, HexagonIsARoomOfFourSlabs) {
   const CompiledScene c = compile(from_file("hexagon"));
   EXPECT_EQ(c.room.size(), 4u) << "eight faces in pairs";
@@ -38,8 +44,8 @@ TEST(Compile, HexagonIsARoomOfFourSlabs) {
   EXPECT_EQ(c.spheres.size(), 3u);
   EXPECT_EQ(c.glass_spheres.size(), 1u);
   EXPECT_FALSE(c.room_hides_lamps);
-  EXPECT_TRUE(c.has_glass && c.has_mirror);
-  EXPECT_FALSE(c.has_oren_nayar || c.has_glow);
+  EXPECT_TRUE(c.has_glass && has<MirrorLobe>(c));
+  EXPECT_FALSE(has<OrenNayarLobe>(c) || c.has_glow);
   EXPECT_EQ(c.max_radiance, 20);
   EXPECT_TRUE(c.warnings.empty());
 }
@@ -59,8 +65,9 @@ TEST(Compile, LeavesOutWhatTheSceneDoesNotNeed) {
   const CompiledScene c = compile(from_file("hexagon_empty"));
   for (const char* feature : {"mirror", "glass", "Oren-Nayar", "EON", "glowing"})
     EXPECT_TRUE(mentions(c.left_out, feature)) << feature;
-  EXPECT_FALSE(c.has_mirror || c.has_glass || c.has_oren_nayar || c.has_glow);
-  EXPECT_TRUE(compile(from_file("report")).has_oren_nayar);
+  EXPECT_FALSE(c.has_glass || c.has_glow);
+  EXPECT_EQ(c.lobes, lobe_bit<LambertianLobe> | lobe_bit<LampLobe>);
+  EXPECT_TRUE(has<OrenNayarLobe>(compile(from_file("report"))));
   EXPECT_TRUE(compile(from_file("furnace")).has_glow);
 }
 
@@ -192,7 +199,7 @@ TEST(Compile, PartitionWallMakesTheRoomSmaller) {
   scene.spheres = {{"behind", "white", {0, 0, -0.8}, 0.1}};
   const CompiledScene c = compile(scene);
   EXPECT_EQ(c.room.size(), 3u);
-  EXPECT_TRUE(c.has_mirror);
+  EXPECT_TRUE(has<MirrorLobe>(c));
   EXPECT_TRUE(mentions(c.left_out, "\"behind\""));
 }
 

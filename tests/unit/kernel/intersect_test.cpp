@@ -1,4 +1,5 @@
 #include "kernel/geometry/intersect.h"
+#include "material/lobes.h"
 
 #include <gtest/gtest.h>
 
@@ -153,8 +154,9 @@ class Reference {
 int object_of(const CompiledScene& compiled, const Scene& scene, int surface) {
   const auto row = static_cast<std::size_t>(surface);
   const auto kind = std::bit_cast<std::int32_t>(compiled.surfaces[Column::kind][row]);
-  if (kind == kind_light) return static_cast<int>(std::lround(compiled.surfaces[Column::emission_r][row])) - 1;
-  if (kind != kind_glass) return static_cast<int>(std::lround(compiled.surfaces[Column::reflectance_r][row] * 256)) - 1;
+  if (kind == lobe_kind<LampLobe>) return static_cast<int>(std::lround(compiled.surfaces[Column::emission_r][row])) - 1;
+  if (kind != lobe_kind<SmoothGlassLobe>)
+    return static_cast<int>(std::lround(compiled.surfaces[Column::reflectance_r][row] * 256)) - 1;
   const float eta = compiled.surfaces[Column::eta][row],
               inverse_radius = compiled.surfaces[Column::inverse_radius][row];
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -262,7 +264,8 @@ struct Probe {
       dvec3 side = inverse_radius > 0 ? (point - n) * inverse_radius : n;
       if (dot(side, in.direction) > 0) side = -side;
       dvec3 d = direction();
-      const bool is_glass = std::bit_cast<std::int32_t>(compiled.surfaces[Column::kind][surface]) == kind_glass;
+      const bool is_glass =
+          std::bit_cast<std::int32_t>(compiled.surfaces[Column::kind][surface]) == lobe_kind<SmoothGlassLobe>;
       if (dot(d, side) < 0 && !is_glass) d = -d;
       Line out{point + origin(), d, object_of(compiled, scene, hits[i].surface)};
       if (inverse_radius == 0) out.from_normal = n;
@@ -397,7 +400,7 @@ TEST(Occluded, IsTheReferencesUpToItsError) {
       Line line = probe.lines[i];
       const auto from = static_cast<std::size_t>(ray.from);
       const auto kind = std::bit_cast<std::int32_t>(probe.compiled.surfaces[Column::kind][from]);
-      if (kind != kind_diffuse) continue;
+      if (kind >= first_kind(LobeClass::delta)) continue;
       const dvec3 goal = probe.place();
       const dvec3 way = goal - line.origin;
       // To the side that the first direction was on.

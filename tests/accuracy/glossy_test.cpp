@@ -1,0 +1,408 @@
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <random>
+
+#include "kernel/scattering/surfaces.h"
+#include "material/list.h"
+#include "pictures.h"
+#include "same_picture.h"
+#include "scene_parts.h"
+
+using namespace glimt;
+
+// Glossy lobes: samples against densities, energy, reciprocity, limits, and the estimators that use them. The
+// probability of a false alarm is alpha for each test.
+namespace {
+
+constexpr double alpha = 1e-4;
+constexpr double pi = std::numbers::pi;
+
+using V = Vec3<float>;
+using Table = Surfaces<float, Features{}>;
+
+dvec3 to_double(const V& v) { return {v.x, v.y, v.z}; }
+V to_float(const dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+Material metal(double roughness, const dvec3& eta = dvec3{0.143, 0.375, 1.442},
+               const dvec3& k = dvec3{3.983, 2.386, 1.603}) {
+  return Material{.name = "model", .type = "conductor"}
+      .with(Conductor::eta, eta)
+      .with(Conductor::k, k)
+      .with(Conductor::roughness, roughness);
+}
+/// Reflects everything: its Fresnel factor is 1.
+Material white_metal(double roughness) { return metal(roughness, dvec3{0}, dvec3{1}); }
+Material frosted(double roughness, double ior = 1.5) { return glass("model", ior).with(Glass::roughness, roughness); }
+
+/// A material's surface with the normal z.
+class Sample {
+ public:
+  Sample(const Material& material, bool front) : compiled_(compile(ball(material))), table_(compiled_) {
+    at_.point = at_.normal = {0, 0, 1};
+    at_.front = front;
+    at_.surface = 0;
+    table_.look_up_kind(at_);
+  }
+  ScatterSample<float> sample(const V& wo, float u, float v, float lobe) const {
+    return table_.sample(seen_from(wo), wo, {u, v}, lobe);
+  }
+  /// BSDF |cos|, green.
+  double evaluate(const V& wi, const V& wo) const {
+    return static_cast<double>(table_.evaluate(seen_from(wo), wi, wo, wi.z, wo.z).y) * std::abs(to_double(wi).z) / pi;
+  }
+  double pdf_w(const V& wi, const V& wo) const {
+    return static_cast<double>(table_.pdf_w(seen_from(wo), wi, wo, wi.z, wo.z));
+  }
+
+ private:
+  static Scene ball(const Material& material) {
+    Scene scene;
+    scene.materials = {material};
+    scene.spheres = {{"", material.name, {0, 0, 0}, 1}};
+    return scene;
+  }
+  Interaction<float> seen_from(const V& wo) const {
+    Interaction<float> at = at_;
+    at.cos_o = wo.z;
+    return at;
+  }
+
+  CompiledScene compiled_;
+  Table table_;
+  Interaction<float> at_{};
+};
+
+V towards(double angle, double turn = 0.3) {
+  return to_float({std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)});
+}
+
+/// Polar cells around a direction, evenly spaced in the logarithm of the angle to it, so that a lobe of any width
+/// covers several.
+class Cells {
+ public:
+  static constexpr int rings = 28, sectors = 8, count = rings * sectors;
+
+  explicit Cells(const dvec3& axis) : axis_(axis) {
+    x_ = normalize(cross(std::abs(axis.z) < 0.9 ? dvec3{0, 0, 1} : dvec3{1, 0, 0}, axis));
+    y_ = cross(axis, x_);
+  }
+  int of(const dvec3& w) const {
+    const double angle = std::atan2(length(cross(axis_, w)), dot(axis_, w));
+    const double turn = std::atan2(dot(w, y_), dot(w, x_)) / (2 * pi) + 0.5;
+    const int ring = std::clamp(static_cast<int>(std::log(angle / smallest) / step), 0, rings - 1);
+    return ring * sectors + std::min(static_cast<int>(turn * sectors), sectors - 1);
+  }
+  /// Integral of f over each cell, by the midpoint rule.
+  template <class Function>
+  std::vector<double> integrals(Function f) const {
+    constexpr int fine = 12;
+    std::vector<double> sums(count);
+    for (int ring = 0; ring < rings; ++ring)
+      for (int i = 0; i < fine; ++i) {
+        const double low = edge(ring, i, fine), high = edge(ring, i + 1, fine), angle = (low + high) / 2;
+        const double ring_area = (std::cos(low) - std::cos(high)) * 2 * pi;
+        for (int k = 0; k < sectors * fine; ++k) {
+          const double turn = 2 * pi * ((k + 0.5) / (sectors * fine) - 0.5);
+          const dvec3 w = std::sin(angle) * (std::cos(turn) * x_ + std::sin(turn) * y_) + std::cos(angle) * axis_;
+          sums[static_cast<std::size_t>(ring * sectors + k / fine)] += f(w) * ring_area / (sectors * fine);
+        }
+      }
+    return sums;
+  }
+
+ private:
+  static constexpr double smallest = 2e-4;
+  static inline const double step = std::log(pi / smallest) / rings;
+  static double edge(int ring, int i, int fine) {
+    return ring == 0 && i == 0 ? 0 : smallest * std::exp(step * (ring + static_cast<double>(i) / fine));
+  }
+
+  dvec3 axis_, x_, y_;
+};
+
+struct Model {
+  std::string name;
+  Material material;
+  bool front;
+};
+
+std::vector<Model> models(const std::vector<double>& roughness) {
+  std::vector<Model> all;
+  for (const double r : roughness) {
+    const std::string text = " of roughness " + std::to_string(r);
+    all.push_back({"metal" + text, metal(r), true});
+    all.push_back({"glass" + text + " from outside", frosted(r), true});
+    all.push_back({"glass" + text + " from inside", frosted(r), false});
+  }
+  return all;
+}
+
+const std::vector<double> sweep{0.04, 0.1, 0.25, 0.5, 1};
+const std::vector<double> views{0.02, 0.6, 1.2, 1.5};
+
+/// The directions around which the model's two lobes lie: mirrored and refracted.
+std::vector<dvec3> lobe_axes(const Model& model, const dvec3& wo) {
+  std::vector<dvec3> axes{{-wo.x, -wo.y, wo.z}};
+  if (model.material.type != "glass") return axes;
+  const double eta = model.front ? 1.5 : 1 / 1.5, sin2 = (1 - wo.z * wo.z) / (eta * eta);
+  axes.push_back(normalize(dvec3{-wo.x / eta, -wo.y / eta, -std::sqrt(std::max(1 - sin2, 1e-4))}));
+  return axes;
+}
+
+// Samples follow pdf_w, and their weight is BSDF |cos| / pdf_w. What is lost below the surface has the rest of the
+// probability.
+TEST(Glossy, SamplesFollowTheirDensity) {
+  constexpr int samples = 40000;
+  const std::vector<Model> all = models(sweep);
+  const double level = sidak(alpha, static_cast<double>(all.size() * views.size()));
+  for (const Model& model : all)
+    for (const double view : views) {
+      const Sample surface(model.material, model.front);
+      const V wo = towards(view);
+      std::vector<Cells> cells;
+      std::vector<double> probability, count;
+      for (const dvec3& axis : lobe_axes(model, to_double(wo))) {
+        cells.emplace_back(axis);
+        const bool above = axis.z > 0;
+        const auto part = cells.back().integrals(
+            [&](const dvec3& w) { return (w.z > 0) == above ? surface.pdf_w(to_float(w), wo) : 0.0; });
+        probability.insert(probability.end(), part.begin(), part.end());
+      }
+      double found = 0;
+      for (const double p : probability) found += p;
+      EXPECT_LT(found, 1.001) << model.name << ", view " << view;
+      probability.push_back(std::max(1 - found, 0.0));
+      count.assign(probability.size(), 0);
+      std::mt19937 random(7);
+      std::uniform_real_distribution<float> number(0, 1);
+      for (int i = 0; i < samples; ++i) {
+        const float u = number(random), v = number(random), lobe = number(random);
+        const ScatterSample<float> s = surface.sample(wo, u, v, lobe);
+        if (!(s.weight.y > 0)) {
+          ++count.back();
+          continue;
+        }
+        const dvec3 wi = to_double(s.direction);
+        const std::size_t part = wi.z > 0 ? 0 : 1;
+        ASSERT_LT(part, cells.size()) << model.name << ", sample " << i;
+        ASSERT_EQ(s.crosses, wi.z < 0) << model.name << ", sample " << i;
+        ++count[part * Cells::count + static_cast<std::size_t>(cells[part].of(wi))];
+        // Rounding of the direction moves the density by its slope, which is steepest for narrow lobes.
+        const double pdf = surface.pdf_w(s.direction, wo), slack = 2e-2;
+        ASSERT_NEAR(static_cast<double>(s.pdf_w) / pdf, 1, slack)
+            << model.name << ", view " << view << ", sample " << i << ", cos " << wi.z;
+        const double eta2 = s.crosses ? static_cast<double>(s.inverse_eta2) : 1;
+        ASSERT_NEAR(static_cast<double>(s.weight.y) * eta2 * pdf / surface.evaluate(s.direction, wo), 1, slack)
+            << model.name << ", view " << view << ", sample " << i << ", cos " << wi.z;
+      }
+      double chi2 = 0, freedom = -1, rest = 0, rest_expected = 0;
+      for (std::size_t i = 0; i < count.size(); ++i) {
+        const double expected = samples * probability[i];
+        if (expected < 10) {
+          rest += count[i], rest_expected += expected;
+        } else {
+          chi2 += (count[i] - expected) * (count[i] - expected) / expected, ++freedom;
+        }
+      }
+      if (rest_expected > 1) chi2 += (rest - rest_expected) * (rest - rest_expected) / rest_expected, ++freedom;
+      EXPECT_GT(chi_square_tail(chi2, freedom), level)
+          << model.name << ", view " << view << ": chi^2 " << chi2 << " of " << freedom << ", seed 7";
+    }
+}
+
+/// Mean weight of samples, over the strata of a grid, and the integral of BSDF |cos|.
+struct Albedo {
+  double sampled, integral;
+};
+Albedo albedo(const Model& model, double view) {
+  constexpr int side = 100;
+  const Sample surface(model.material, model.front);
+  const V wo = towards(view);
+  double sum = 0, integral = 0;
+  for (int i = 0; i < side; ++i)
+    for (int k = 0; k < side; ++k) {
+      const float lobe = static_cast<float>((i * 37 + k * 61) % side) / side + 0.5f / side;
+      const ScatterSample<float> s =
+          surface.sample(wo, (static_cast<float>(i) + 0.5f) / side, (static_cast<float>(k) + 0.5f) / side, lobe);
+      const bool through = s.crosses;
+      sum += static_cast<double>(s.weight.y * (through ? s.inverse_eta2 : 1.0f)) / (side * side);
+    }
+  for (const dvec3& axis : lobe_axes(model, to_double(wo)))
+    for (const double part : Cells(axis).integrals(
+             [&](const dvec3& w) { return (w.z > 0) == (axis.z > 0) ? surface.evaluate(to_float(w), wo) : 0.0; }))
+      integral += part;
+  return {sum, integral};
+}
+
+// No surface sends back more than it gets: of flux, which has no factor n^2. Sampling and the integral of the BSDF give
+// the same. A white metal loses what its facets send to one another; the table says how much.
+TEST(Glossy, KeepsEnergyButForLightBetweenFacets) {
+  std::cout << "light that a white metal loses, percent\n roughness";
+  for (const double view : views) std::cout << "\t" << view << " rad";
+  for (const double roughness : sweep) {
+    std::cout << "\n " << roughness;
+    for (const double view : views) {
+      const Albedo a = albedo({"white metal", white_metal(roughness), true}, view);
+      std::cout << "\t" << std::round(1000 * (1 - a.integral)) / 10;
+      EXPECT_NEAR(a.sampled, a.integral, 0.01) << "roughness " << roughness << ", view " << view;
+      EXPECT_LT(a.integral, 1.001) << "roughness " << roughness << ", view " << view;
+    }
+  }
+  std::cout << "\n";
+  for (const Model& model : models(sweep))
+    for (const double view : views) {
+      const Albedo a = albedo(model, view);
+      EXPECT_NEAR(a.sampled, a.integral, 0.02 * std::max(1.0, a.integral)) << model.name << ", view " << view;
+      EXPECT_LT(a.integral, model.front ? 1.001 : 1.5 * 1.5 * 1.001) << model.name << ", view " << view;
+    }
+}
+
+// Light may run both ways: f is symmetric for a metal, f / n^2 for glass, n the index on the side that light leaves to.
+TEST(Glossy, IsReciprocal) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(0, 1);
+  for (const double roughness : sweep) {
+    const Sample metallic(metal(roughness), true), outside(frosted(roughness), true), inside(frosted(roughness), false);
+    int seen = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const V a = towards(1.5 * number(random), 6 * number(random)),
+              b = towards(1.5 * number(random), 6 * number(random));
+      const auto f = [](const Sample& s, const V& wi, const V& wo) {
+        return s.evaluate(wi, wo) / std::abs(to_double(wi).z);
+      };
+      EXPECT_NEAR(f(metallic, a, b), f(metallic, b, a), 1e-3 * f(metallic, a, b) + 1e-7) << roughness << ", " << i;
+      EXPECT_NEAR(f(outside, a, b), f(outside, b, a), 1e-3 * f(outside, a, b) + 1e-7) << roughness << ", " << i;
+      // To a, outside, from below; and from a to below, which is seen from inside with the normal turned.
+      const V below{b.x, b.y, -b.z};
+      const V from_inside{b.x, -b.y, b.z}, up{a.x, -a.y, -a.z};
+      const double out = f(outside, below, a), in = f(inside, up, from_inside) / (1.5 * 1.5);
+      EXPECT_NEAR(out, in, 2e-3 * out + 1e-7) << roughness << ", " << i;
+      seen += out > 0;
+    }
+    EXPECT_GT(seen, 200) << "roughness " << roughness;
+  }
+}
+
+// Fresnel at normal incidence: ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2); 1 at grazing; and for k = 0 that of glass.
+TEST(Glossy, ConductorFresnel) {
+  for (const double eta : {0.1, 0.5, 1.0, 1.5, 3.0})
+    for (const double k : {0.0, 0.5, 2.0, 7.0}) {
+      const auto share = [&](double cos) {
+        return static_cast<double>(
+            conductor_fresnel(static_cast<float>(cos), static_cast<float>(eta), static_cast<float>(k)));
+      };
+      const double normal = (std::pow(eta - 1, 2) + k * k) / (std::pow(eta + 1, 2) + k * k);
+      EXPECT_NEAR(share(1), normal, 1e-6) << eta << " + " << k << " i";
+      if (eta != 1 || k != 0) {
+        EXPECT_NEAR(share(1e-6), 1, 1e-4) << eta << " + " << k << " i";
+      }
+      if (k != 0 || eta <= 1) continue;
+      for (const double cos : {0.1, 0.4, 0.8}) {
+        const float n = static_cast<float>(eta), of_glass = fresnel(static_cast<float>(cos), n, 1 / n, false).reflected;
+        EXPECT_NEAR(share(cos), static_cast<double>(of_glass), 1e-5) << eta << ", cos " << cos;
+      }
+    }
+}
+
+/// A room with a gold ball, one of frosted glass, a lamp and matt walls.
+Scene glossy_room(double roughness) {
+  Scene scene;
+  scene.name = "glossy room";
+  scene.materials = {lambertian("white", {0.7, 0.7, 0.6}), lambertian("red", {0.7, 0.2, 0.1}), light("lamp", {6, 7, 8}),
+                     metal(roughness), frosted(roughness)};
+  scene.materials[3].name = "gold", scene.materials[4].name = "glass";
+  scene.polygons = box({-2, -1, -2}, {2, 1, 2}, "white");
+  scene.polygons[4].material = "red";
+  scene.polygons.push_back(square_lamp(1, 0.95));
+  scene.spheres = {{"gold", "gold", {-0.8, -0.4, -0.4}, 0.6}, {"glass", "glass", {0.8, -0.4, 0}, 0.6}};
+  scene.camera = {{0, 0, 1.9}, {0, -0.1, 0}, {0, 1, 0}, 75};
+  scene.image = {32, 32};
+  return scene;
+}
+
+// Every estimator of the same picture agrees with every other: lamps by chance, by light sampling, MIS, with light
+// paths and shared tails and without, every sampler.
+TEST(Glossy, EstimatorsAgree) {
+  struct Way {
+    const char* name;
+    int samples;
+    void (*change)(Settings&);
+  };
+  const std::vector<Way> ways{
+      {"default", 16, [](Settings&) {}},
+      {"naive", 64, [](Settings& s) { set_method(s, Method::naive); }},
+      {"no light paths", 16, [](Settings& s) { s.light_paths = 0; }},
+      {"no sharing", 16, [](Settings& s) { s.path_sharing = PathSharing::off; }},
+      {"MIS, two shadow rays", 8, [](Settings& s) { s.mis = Mis::on, s.shadow_rays = 2; }},
+      {"solid angle, Sobol", 16,
+       [](Settings& s) { s.light_sampling = LightSampling::solid_angle, s.sampler = Sampler::sobol; }},
+      {"independent, no light paths, no sharing", 16,
+       [](Settings& s) { s.sampler = Sampler::independent, s.light_paths = 0, s.path_sharing = PathSharing::off; }}};
+  for (const double roughness : {0.15, 0.5}) {
+    std::vector<Named> all;
+    for (const Way& way : ways) {
+      Scene scene = glossy_room(roughness);
+      way.change(scene.render);
+      Series series;
+      const int first_seed = 1 + 100 * static_cast<int>(all.size());
+      for (int seed = first_seed; seed < first_seed + 32; ++seed) {
+        scene.render.seed = seed;
+        series.blocks.push_back(block_means(render(compile(scene), way.samples * effort / 8).mean(), 8));
+      }
+      all.push_back({std::string(way.name) + " (seeds from " + std::to_string(first_seed) + ")", std::move(series)});
+    }
+    const auto n = static_cast<double>(all.size());
+    const double level = sidak(alpha / 2, n * (n - 1) / 2 * comparisons(all[0].series));
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) expect_same(all[k], all[i], level, "roughness " + std::to_string(roughness));
+  }
+}
+
+// Without caustics and caustics alone add up to the picture, by light paths and without.
+TEST(Glossy, CausticsAreWhatCausticsOffLeavesOut) {
+  for (const double light_paths : {0.0, 0.5}) {
+    Scene scene = glossy_room(0.3);
+    scene.render.light_paths = light_paths;
+    const auto series = [&](Caustics caustics, int seed) {
+      scene.render.caustics = caustics;
+      Series s;
+      for (int i = 0; i < 32; ++i) {
+        scene.render.seed = seed + i;
+        s.blocks.push_back(block_means(render(compile(scene), 2 * effort).mean(), 8));
+      }
+      return s;
+    };
+    const Series on = series(Caustics::on, 1), off = series(Caustics::off, 101), only = series(Caustics::only, 201);
+    Series sum = off;
+    for (std::size_t i = 0; i < sum.blocks.size(); ++i)
+      for (std::size_t b = 0; b < sum.blocks[i].size(); ++b) sum.blocks[i][b] += only.blocks[i][b];
+    expect_same({"on (seeds from 1)", on}, {"off + only (seeds from 101, 201)", sum}, sidak(alpha / 2, comparisons(on)),
+                "light paths " + std::to_string(light_paths));
+    EXPECT_GT(only.overall().mean, 0.01 * on.overall().mean);
+  }
+}
+
+// A camera path of one sample is the same by one lane and by many.
+TEST(Glossy, OneLaneIsMany) {
+  const CompiledScene scene = compile(glossy_room(0.3));
+  const auto one = trace_all(scene, 4, Lanes::scalar), many = trace_all(scene, 4, Lanes::native);
+  const std::ptrdiff_t at = first_difference(one, many);
+  EXPECT_EQ(at, -1) << replay(scene, at);
+}
+
+// Below an alpha of 1e-3 a surface is smooth: roughness 0.01 is the mirror and the clear glass, bit for bit.
+TEST(Glossy, SmoothLimits) {
+  const auto picture = [](const Material& a, const Material& b) {
+    Scene scene = glossy_room(0);
+    scene.materials[3] = a, scene.materials[4] = b;
+    scene.materials[3].name = "gold", scene.materials[4].name = "glass";
+    scene.render.sphere_connections = SphereConnections::off;
+    return trace_all(compile(scene), 4, Lanes::native);
+  };
+  const auto smooth = picture(mirror("", dvec3{1}), glass("", 1.5));
+  for (const double roughness : {0.0, 0.01})
+    EXPECT_EQ(first_difference(smooth, picture(white_metal(roughness), frosted(roughness))), -1) << roughness;
+}
+
+}  // namespace
