@@ -15,7 +15,10 @@ F conductor_fresnel(F cos, F eta, F k) {
   const F eta2 = eta * eta, k2 = k * k;
   const F difference = eta2 - k2 - sin2;
   const F sum = sqrt(fma(difference, difference, F(4.0f) * eta2 * k2));
-  const F across = sum + cos2, twice = F(2.0f) * cos * sqrt(max(F(0.5f) * (sum + difference), F(0.0f)));
+  // Half of sum + difference, which cancels where the difference is negative.
+  const F half = select(difference > F(0.0f), F(0.5f) * (sum + difference),
+                        F(2.0f) * eta2 * k2 * reciprocal(max(sum - difference, F(1e-30f))));
+  const F across = sum + cos2, twice = F(2.0f) * cos * sqrt(half);
   const F perpendicular = (across - twice) * reciprocal(across + twice);
   const F along = fma(cos2, sum, sin2 * sin2), part = twice * sin2;
   const F parallel = perpendicular * (along - part) * reciprocal(along + part);
