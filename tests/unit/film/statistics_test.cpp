@@ -136,4 +136,57 @@ TEST(RelmseEstimate, AgreesWithTheTrueError) {
   EXPECT_NEAR(relmse_estimate(film) / compare(film.mean(), grey(side, side, 2)).relmse, 1, 0.016 + 0.019);
 }
 
+// A power of two times every radiance is exact in film and images, so no bit of a measure without a scale may change.
+TEST(RelmseScaled, IsTheSameForEveryScale) {
+  const auto of_scale = [](float scale) {
+    Film film(9, 10, 8 * scale);
+    std::mt19937 random(5);
+    std::exponential_distribution<float> sample(0.5f);
+    for (int pixel = 0; pixel < 90; ++pixel)
+      for (int i = 0; i < 3; ++i) {
+        const float r = sample(random) * scale, g = sample(random) * scale, b = sample(random) * scale;
+        film.add(pixel, i % 2, r, g, b);
+      }
+    film.finish_pass(3);
+    return std::pair(estimate_error(film), compare(film.half_mean(0), film.half_mean(1)).relmse_scaled);
+  };
+  const auto [one, compared] = of_scale(1);
+  EXPECT_GT(one.relmse_scaled, 0);
+  for (const float scale : {0x1p-40f, 0.5f, 2.0f, 0x1p40f}) {
+    const auto [other, other_compared] = of_scale(scale);
+    EXPECT_EQ(other.relmse_scaled, one.relmse_scaled) << scale;
+    EXPECT_EQ(other.low, one.low) << scale;
+    EXPECT_EQ(other.high, one.high) << scale;
+    EXPECT_EQ(other_compared, compared) << scale;
+  }
+  EXPECT_NE(of_scale(0.5f).first.relmse, one.relmse) << "relmse has a scale";
+}
+
+// Halves and truth are independent, each the mean of 4 normal numbers: the ratio of the error made and the error
+// estimated is that of two chi-square variables. More than 35 of 400 pictures outside an interval of 95 % come by
+// chance once in 1000 tests.
+TEST(RelmseScaled, IntervalHoldsTheError) {
+  std::mt19937 random(7);
+  std::normal_distribution<float> sample(4, 0.5f);
+  int outside = 0;
+  for (int picture = 0; picture < 400; ++picture) {
+    Film film(16, 16, 16);
+    for (int pixel = 0; pixel < 256; ++pixel)
+      for (int i = 0; i < 4; ++i) film.add(pixel, i % 2, sample(random), sample(random), sample(random));
+    film.finish_pass(4);
+    const ErrorEstimate estimate = estimate_error(film);
+    const double error = compare(film.mean(), grey(16, 16, 4)).relmse_scaled;
+    outside += error < estimate.low || error > estimate.high;
+  }
+  EXPECT_LE(outside, 35);
+}
+
+TEST(RelmseScaled, IntervalIsOpenWhereOnePixelHasAllOfTheError) {
+  Film film(16, 16, 16);
+  for (int pixel = 0; pixel < 256; ++pixel)
+    for (int half = 0; half < 2; ++half) film.add(pixel, half, 1, 1, pixel == 99 && half == 0 ? 9 : 1);
+  film.finish_pass(2);
+  EXPECT_EQ(estimate_error(film).high, std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
