@@ -11,13 +11,17 @@
 #include <utility>
 
 #include "viewer/chart_view/chart_panel.h"
+#include "viewer/keys.h"
 #include "viewer/picture/notice.h"
+#include "viewer/state/compare_actions.h"
 #include "viewer/widgets/labels.h"
 #include "viewer/widgets/layout.h"
 #include "viewer/widgets/style.h"
 
 namespace glimt {
 namespace {
+
+constexpr float worst_pixel_zoom = 16;  ///< framebuffer pixels per picture pixel
 
 /// All that decides what a picture looks like, but for what its textures hold.
 std::string bytes_of(const ImDrawData& data) {
@@ -88,10 +92,9 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   draw_hint(state, layout.image);
   draw_notice(state, layout.image, edits);
   compare_->draw_line(state, layout.image, picture, edits);
-  Requests requests;
-  draw_column(state, layout.column, edits, requests);
-  if (state.chart.view.shown) draw_chart_panel(state, layout.chart, edits, requests);
-  carry_out(requests, state, edits);
+  draw_column(state, layout.column, edits);
+  if (state.chart.view.shown) draw_chart_panel(state, layout.chart, edits);
+  carry_out(state, edits);
   draw_status(state, layout.status, picture);
   files_.draw(sheets, edits);
   if (help_ && draw_help_panel(sheets)) help_ = false;
@@ -129,30 +132,49 @@ void Screen::follow_gesture(Edits& edits) {
   edits.gesture = gesture_;
 }
 
-void Screen::escape(Edits& edits) {
-  if (help_ || files_.is_open()) {
+void Screen::carry_out(const ViewerState& state, Edits& edits) {
+  if (edits.toggle_help) help_ = !help_;
+  if (edits.escape && (help_ || files_.is_open())) {
     help_ = false;
     files_.close();
-  } else {
+  } else if (edits.escape) {
     edits.select = std::optional<ObjectId>();
   }
+  if (edits.choose_file) files_.show(*edits.choose_file, state);
+  if (edits.zoom == PictureZoom::fitted) tool_.fit();
+  if (edits.zoom == PictureZoom::pixel_by_pixel) tool_.set_zoom({.zoom = 1});
+  if (edits.worst_pixel) go_to_worst_pixel(state, edits);
 }
 
-void Screen::carry_out(const Requests& requests, const ViewerState& state, Edits& edits) {
-  if (requests.open) files_.show(FilesPanel::Purpose::open, state);
-  if (requests.save) files_.show(FilesPanel::Purpose::save, state);
-  if (requests.reference) files_.show(FilesPanel::Purpose::reference, state);
-  if (requests.worst) go_to_worst_pixel(state, edits);
+void Screen::go_to_worst_pixel(const ViewerState& state, Edits& edits) {
+  const Held b = picture_b(state);
+  if (!state.frame || !obstacle_to_compare(state).empty() || !same_size(state.frame->mean, b.frame->mean)) return;
+  const Pixel worst = worst_pixel(state.frame->mean, b.frame->mean);
+  const auto share = [](int pixel, int pixels) {
+    return (static_cast<float>(pixel) + 0.5F) / static_cast<float>(pixels);
+  };
+  tool_.set_zoom({worst_pixel_zoom, share(worst.x, b.frame->size.width), share(worst.y, b.frame->size.height)});
+  inspector_.mark(worst);
+  edits.inspect = true;
 }
 
-void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests) {
+void Screen::drop(const std::filesystem::path& file, Edits& edits) const {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const bool picture = file.extension() == ".exr";
+  if (file.extension() == ".pfm" || (picture && is_inside(chart_, mouse.x, mouse.y)))
+    edits.load_reference = file;
+  else
+    edits.open = file;
+}
+
+void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edits) {
   begin_fixed_window("controls", place, 16, 14);
   draw_progress_panel(state);
   ImGui::Dummy({0, style::scaled(2)});
-  draw_actions_panel(state, edits, requests);
+  draw_actions_panel(state, edits);
   ImGui::Dummy({0, style::scaled(4)});
   draw_display_panel(state, edits);
-  draw_compare_panel(state, edits, requests);
+  draw_compare_panel(state, edits);
   ImGui::Dummy({0, style::scaled(4)});
   draw_tabs(state, edits);
   ImGui::End();
@@ -218,12 +240,12 @@ void Screen::draw_status(const ViewerState& state, const Rect& place, const Plac
   begin_fixed_window("status", place, 12, 5, ImGuiWindowFlags_NoNav);
   std::string size;
   if (state.frame) {
-    size = size_text(state.frame->size) + " at " + std::to_string(std::lround(picture.zoom * 100)) + " %     F1 help";
+    size = size_text(state.frame->size) + " at " + std::to_string(std::lround(picture.zoom * 100)) + " %";
   }
   const float width = ImGui::GetContentRegionAvail().x;
   const float size_width = ImGui::CalcTextSize(size.c_str()).x;
   const bool hint = state.message.text.empty();
-  const std::string line = hint ? "Space  pause     S  snapshot     Ctrl+Z  undo     Ctrl+O  open" : state.message.text;
+  const std::string line = hint ? status_keys() : state.message.text;
   const ImU32 colour = hint ? style::muted : state.message.error ? style::error : ImGui::GetColorU32(ImGuiCol_Text);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(fit_text(line, width - size_width - style::scaled(16)).c_str());

@@ -32,23 +32,15 @@ class Screen {
   /// Where the controls of the last lay_out() are.
   const WidgetRects& widgets() const { return widgets_; }
 
-  // What keys do to the screen itself.
-  void toggle_help() { help_ = !help_; }
-  void show_files(FilesPanel::Purpose purpose, const ViewerState& state) { files_.show(purpose, state); }
+  /// Keys move the camera.
   bool flying() const { return tool_.flying(); }
-  void fit_picture() { tool_.fit(); }
-  void show_pixel_by_pixel() { tool_.set_zoom({.zoom = 1}); }
-  /// Closes the sheets over the picture, or selects nothing.
-  void escape(Edits& edits);
-  /// The keys of chart and comparison.
-  void press(char letter, const ViewerState& state, Edits& edits);
   /// A file dropped into the window: a scene, a picture with its scene, or a reference, which PFM files and pictures
   /// dropped onto the chart are.
   void drop(const std::filesystem::path& file, Edits& edits) const;
 
  private:
-  void draw_column(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests);
-  void carry_out(const Requests& requests, const ViewerState& state, Edits& edits);
+  void draw_column(const ViewerState& state, const Rect& place, Edits& edits);
+  void carry_out(const ViewerState& state, Edits& edits);
   void go_to_worst_pixel(const ViewerState& state, Edits& edits);
   void draw_tabs(const ViewerState& state, Edits& edits);
   void draw_status(const ViewerState& state, const Rect& place, const Placement& picture);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "scene/file/scene_file.h"
+#include "viewer/keys.h"
 #include "viewer/screen.h"
 #include "viewer/state/controller.h"
 #include "viewer/state/logs.h"
@@ -36,27 +37,27 @@ struct Inbox {
 
 Inbox& inbox(GLFWwindow* window) { return *static_cast<Inbox*>(glfwGetWindowUserPointer(window)); }
 
-View next(View view) { return view == View::samples ? View::image : static_cast<View>(static_cast<int>(view) + 1); }
+KeyContext context_of(GLFWwindow* window) {
+  const ImGuiIO& io = ImGui::GetIO();
+  return {.typing = io.WantTextInput,
+          .popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel),
+          // From the moment on at which the right button goes down.
+          .flying = inbox(window).screen->flying() || glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS,
+          .navigating = io.NavVisible};
+}
 
-void on_letter(Inbox& in, char letter, bool control, bool shift) {
-  using Purpose = FilesPanel::Purpose;
-  Edits& edits = in.edits;
-  if (control) {
-    if (letter == 'q') edits.quit = true;
-    if (letter == 'z' && !shift) edits.undo = true;
-    if (letter == 'y' || (letter == 'z' && shift)) edits.redo = true;
-    if (letter == 'o') in.screen->show_files(Purpose::open, *in.state);
-    if (letter == 's') in.screen->show_files(Purpose::save, *in.state);
-    return;
-  }
-  if (letter == 'r') edits.restart = true;
-  if (letter == 's') (shift ? edits.snapshot_exr : edits.snapshot) = true;
-  if (letter == 'f') in.screen->fit_picture();
-  if (letter == '1') in.screen->show_pixel_by_pixel();
-  in.screen->press(letter, *in.state, edits);
-  if (letter == 'v') {
-    edits.display = in.state->display;
-    edits.display->view = next(edits.display->view);
+char key_of(int key, int scancode) {
+  switch (key) {
+    case GLFW_KEY_ESCAPE:
+      return key_escape;
+    case GLFW_KEY_SPACE:
+      return key_space;
+    case GLFW_KEY_HOME:
+      return key_home;
+    case GLFW_KEY_F1:
+      return key_f1;
+    default:  // GLFW numbers the other keys by what a US layout has there, in ASCII
+      return key_letter(glfwGetKeyName(key, scancode), key);
   }
 }
 
@@ -64,27 +65,16 @@ void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers
   Inbox& in = inbox(window);
   in.touched = true;
   if (action != GLFW_PRESS) return;
-  const ImGuiIO& io = ImGui::GetIO();
-  const bool control = (modifiers & GLFW_MOD_CONTROL) != 0, shift = (modifiers & GLFW_MOD_SHIFT) != 0;
-  const char* name = glfwGetKeyName(key, scancode);  // of this keyboard's layout
-  const char letter = name != nullptr && name[0] != '\0' && name[1] == '\0' ? name[0] : '\0';
-  const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-  if (key == GLFW_KEY_F1) in.screen->toggle_help();
-  if (key == GLFW_KEY_ESCAPE && !popup) in.screen->escape(in.edits);
-  if (io.WantTextInput || popup) {
-    if (control && letter == 'q') in.edits.quit = true;
-    return;
-  }
-  // Keys fly while the right button is held, from the moment on at which it goes down.
-  if (in.screen->flying() || glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) return;
-  on_letter(in, letter, control, shift);
-  if (key == GLFW_KEY_SPACE && !io.NavVisible) in.edits.toggle_pause = true;
-  if (key == GLFW_KEY_HOME) in.edits.edit(*in.state).camera = in.state->opened_camera;
+  const KeyPress press{.key = key_of(key, scancode),
+                       .control = (modifiers & GLFW_MOD_CONTROL) != 0,
+                       .shift = (modifiers & GLFW_MOD_SHIFT) != 0};
+  press_key(press, context_of(window), *in.state, in.edits);
 }
 
 void on_character(GLFWwindow* window, unsigned character) {
-  inbox(window).touched = true;
-  if (character == '?' && !ImGui::GetIO().WantTextInput) inbox(window).screen->toggle_help();
+  Inbox& in = inbox(window);
+  in.touched = true;
+  type_sign(character, context_of(window), *in.state, in.edits);
 }
 
 void on_drop(GLFWwindow* window, int count, const char** paths) {

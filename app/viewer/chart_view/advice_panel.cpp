@@ -44,12 +44,12 @@ void draw_answer(const ViewerState& state, Edits& edits) {
 
 void draw_advice(const ViewerState& state, Edits& edits) {
   const ChartState& chart = state.chart;
-  if (draw_measuring(chart, edits.chart)) return;
+  if (draw_measuring(chart, edits)) return;
   ButtonRow row(2);
-  edits.chart.advise = row.button("Measure", "advice.measure",
-                                  "Render this view with 1 and with 4 shadow rays in turn, five seeds each, some five "
-                                  "seconds in all. The picture pauses meanwhile.",
-                                  !chart.making);
+  edits.advise |= row.button("Measure", "advice.measure",
+                             "Render this view with 1 and with 4 shadow rays in turn, five seeds each, some five "
+                             "seconds in all. The picture pauses meanwhile.",
+                             !chart.making);
   if (!chart.advice) {
     muted_text(
         "More shadow rays make a path less noisy and slower. This measures both on the view, and finds where "

@@ -70,17 +70,17 @@ std::optional<PlotPoint> draw_error_plot(const ChartState& chart, const Rect& pl
   return pointer;
 }
 
-void draw_view_buttons(const ChartState& chart, ChartEdits& edits) {
+void draw_view_buttons(const ChartState& chart, Edits& edits) {
   ButtonRow row(5);
   const bool by_time = chart.view.across == Across::seconds, any = !chart.curves.all().empty();
   if (row.button(by_time ? "By samples###axis" : "By time###axis", "chart.axis",
                  "What the error is drawn against: time, or samples per pixel"))
-    edits.view = ChartView{true, by_time ? Across::samples : Across::seconds};
-  edits.export_csv = row.button("CSV", "chart.csv", "Every point, as a new file in the current folder", any);
-  edits.export_svg = row.button("SVG", "chart.svg", "The curves shown, as a new file in the current folder", any);
-  edits.clear = row.button("Clear", "chart.clear", "Delete all curves", any);
+    edits.chart_view = ChartView{true, by_time ? Across::samples : Across::seconds};
+  edits.export_csv |= row.button("CSV", "chart.csv", "Every point, as a new file in the current folder", any);
+  edits.export_svg |= row.button("SVG", "chart.svg", "The curves shown, as a new file in the current folder", any);
+  edits.clear_chart |= row.button("Clear", "chart.clear", "Delete all curves", any);
   if (row.button("Hide", "chart.hide", "Hide the chart; curves go on growing. Key: C"))
-    edits.view = ChartView{false, chart.view.across};
+    edits.chart_view = ChartView{false, chart.view.across};
 }
 
 bool tab(const char* label, const char* name, const char* tip) {
@@ -90,16 +90,15 @@ bool tab(const char* label, const char* name, const char* tip) {
   return open;
 }
 
-void draw_error_page(const ViewerState& state, const std::optional<PlotPoint>& pointer, Edits& edits,
-                     Requests& requests) {
-  draw_reference_controls(state, edits, requests);
-  draw_view_buttons(state.chart, edits.chart);
-  draw_curve_list(state.chart, pointer, edits.chart);
+void draw_error_page(const ViewerState& state, const std::optional<PlotPoint>& pointer, Edits& edits) {
+  draw_reference_controls(state, edits);
+  draw_view_buttons(state.chart, edits);
+  draw_curve_list(state.chart, pointer, edits);
 }
 
 }  // namespace
 
-void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits, Requests& requests) {
+void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits) {
   begin_fixed_window("chart", place, 12, 8);
   // The list is at the right of a wide panel and below in a tall one.
   const ImVec2 at = ImGui::GetCursorScreenPos(), free = ImGui::GetContentRegionAvail();
@@ -130,7 +129,7 @@ void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits,
   ImGui::BeginChild("pages", wide ? ImVec2{list, free.y} : ImVec2{free.x, list});
   if (ImGui::BeginTabBar("tabs")) {
     if (tab("Error", "chart.tab.error", "Error of every setting tried, against the time it took")) {
-      draw_error_page(state, pointer, edits, requests);
+      draw_error_page(state, pointer, edits);
       memory.SetInt(page, error);
       ImGui::EndTabItem();
     }

@@ -65,7 +65,7 @@ void draw_head(const ChartState& chart, const std::optional<PlotPoint>& pointer)
 }
 
 void draw_row(const ChartState& chart, const Curve& curve, std::size_t index, const std::optional<PlotPoint>& pointer,
-              ChartEdits& edits) {
+              Edits& edits) {
   const Columns columns;
   const std::string name = "curve." + std::to_string(index);
   const float height = ImGui::GetFontSize() + style::scaled(5), y = ImGui::GetCursorScreenPos().y;
@@ -79,14 +79,14 @@ void draw_row(const ChartState& chart, const Curve& curve, std::size_t index, co
     return pressed;
   };
   if (part("sample", columns.sample, columns.label - style::scaled(4), "show", "Hide or show this curve"))
-    (curve.shown ? edits.hide : edits.show) = curve.id;
+    (curve.shown ? edits.hide_curve : edits.show_curve) = curve.id;
   CurveStyle style = curve_style(curve.id);
   if (!curve.shown) style.colour = IM_COL32(80, 84, 92, 255);
   draw_sample({columns.sample, y, style::scaled(sample_width), height}, style);
 
   if (part("label", columns.label, columns.numbers.back(), "base",
            curve.label + "\nClick: efficiencies are told as multiples of this one's"))
-    edits.base = curve.id;
+    edits.base_curve = curve.id;
   const bool current = &curve == chart.curves.current();
   const ImU32 colour = !curve.shown ? style::muted : current ? style::outline : ImGui::GetColorU32(ImGuiCol_Text);
   ImGui::GetWindowDrawList()->AddText({columns.label, text}, colour,
@@ -95,7 +95,7 @@ void draw_row(const ChartState& chart, const Curve& curve, std::size_t index, co
   for (std::size_t i = 0; i < numbers.size(); ++i) text_to_right(columns.numbers.at(i), text, colour, numbers.at(i));
 
   if (part("delete", columns.cross, columns.cross + style::scaled(cross_width), "delete", "Delete this curve"))
-    edits.remove = curve.id;
+    edits.remove_curve = curve.id;
   const ImU32 cross = ImGui::IsItemHovered() ? style::error : style::muted;
   text_to_right(columns.cross + style::scaled(14), text, cross, "\u00D7");
   ImGui::PopID();
@@ -103,7 +103,7 @@ void draw_row(const ChartState& chart, const Curve& curve, std::size_t index, co
 
 }  // namespace
 
-void draw_curve_list(const ChartState& chart, const std::optional<PlotPoint>& pointer, ChartEdits& edits) {
+void draw_curve_list(const ChartState& chart, const std::optional<PlotPoint>& pointer, Edits& edits) {
   if (chart.curves.all().empty()) {
     muted_text("A curve begins with the second sample of every pixel.");
     return;

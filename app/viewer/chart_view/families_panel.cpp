@@ -64,10 +64,10 @@ void draw_bar(const ImVec2& at, float width, float height, double share, ImU32 c
 
 void draw_families(const ViewerState& state, Edits& edits) {
   const ChartState& chart = state.chart;
-  if (draw_measuring(chart, edits.chart)) return;
+  if (draw_measuring(chart, edits)) return;
   const bool several = has_specular(state.scene);
   ButtonRow row(2);
-  edits.chart.measure_families = row.button(
+  edits.measure_families |= row.button(
       "Measure", "families.measure",
       "Render this view without caustics and its caustics alone in turn, five seeds each, some five seconds in "
       "all. The picture pauses meanwhile.",

@@ -5,12 +5,12 @@
 
 namespace glimt {
 
-bool draw_measuring(const ChartState& chart, ChartEdits& edits) {
+bool draw_measuring(const ChartState& chart, Edits& edits) {
   if (!chart.measuring) return false;
   muted_text("Measuring this view. The picture pauses meanwhile.");
   ImGui::ProgressBar(static_cast<float>(*chart.measuring), {-FLT_MIN, ImGui::GetFontSize() / 2}, "");
   ButtonRow row(2);
-  edits.stop_measuring = row.button("Stop", "measuring.stop", "Stop measuring");
+  edits.stop_measuring |= row.button("Stop", "measuring.stop", "Stop measuring");
   return true;
 }
 

@@ -23,7 +23,7 @@ std::string what_it_is(const ChartState& chart) {
 
 }  // namespace
 
-void draw_reference_controls(const ViewerState& state, Edits& edits, Requests& requests) {
+void draw_reference_controls(const ViewerState& state, Edits& edits) {
   const ChartState& chart = state.chart;
   begin_row("Reference", "What errors are measured against. It must be of this scene and size; settings may differ.");
   ImGui::TextUnformatted(fit_text(what_it_is(chart), ImGui::GetContentRegionAvail().x).c_str());
@@ -34,25 +34,25 @@ void draw_reference_controls(const ViewerState& state, Edits& edits, Requests& r
             "does.\nDrag, or Ctrl+click to type a number.");
   double target = chart.target;
   ImGui::PushID("target");
-  if (logarithmic_slider(target, least_error, most_error, " relMSE")) edits.chart.target = target;
+  if (logarithmic_slider(target, least_error, most_error, " relMSE")) edits.reference_target = target;
   note_widget("reference.target");
   ImGui::PopID();
 
   ButtonRow row(3);
   if (chart.making) {
-    edits.chart.use_now = row.button("Use as it is", "reference.use", "Stop, and measure against what there is");
-    edits.chart.stop_making = row.button("Stop", "reference.stop", "Stop, and throw it away");
+    edits.use_reference_now |= row.button("Use as it is", "reference.use", "Stop, and measure against what there is");
+    edits.stop_reference |= row.button("Stop", "reference.stop", "Stop, and throw it away");
     return;
   }
-  edits.chart.make_reference =
+  edits.make_reference |=
       row.button("Make", "reference.make",
                  "Render this scene on with the best method, all its light and a seed of its own, until its error is "
                  "small enough. The picture pauses meanwhile, so that times stay true; edit as you like.",
                  !chart.measuring);
-  requests.reference = row.button("Open\u2026", "reference.open",
-                                  "An EXR or PFM of this scene and size. It can also be dropped onto the chart");
-  edits.chart.drop_reference =
-      row.button("Drop", "reference.drop", "Estimate errors again", chart.reference != nullptr);
+  if (row.button("Open\u2026", "reference.open",
+                 "An EXR or PFM of this scene and size. It can also be dropped onto the chart"))
+    edits.choose_file = FilePurpose::reference;
+  edits.drop_reference |= row.button("Drop", "reference.drop", "Estimate errors again", chart.reference != nullptr);
 }
 
 }  // namespace glimt

@@ -5,7 +5,7 @@
 
 namespace glimt {
 
-void draw_actions_panel(const ViewerState& state, Edits& edits, Requests& requests) {
+void draw_actions_panel(const ViewerState& state, Edits& edits) {
   ButtonRow row(4);
   edits.toggle_pause |= row.button(state.paused ? "Resume##pause" : "Pause##pause", "pause",
                                    "Stop rendering for now, or go on. Key: space");
@@ -13,10 +13,11 @@ void draw_actions_panel(const ViewerState& state, Edits& edits, Requests& reques
   edits.undo |=
       row.button("Undo", "undo", "Take back the last edit. Its samples come back too. Key: Ctrl+Z", state.can_undo);
   edits.redo |= row.button("Redo", "redo", "Do again what was undone. Key: Ctrl+Y", state.can_redo);
-  requests.open |= row.button("Open\u2026", "open",
-                              "A scene file, or a picture that holds its scene. Key: Ctrl+O. Both can "
-                              "also be dropped into the window");
-  requests.save |= row.button("Save\u2026", "save", "The scene as a file. Key: Ctrl+S");
+  if (row.button("Open\u2026", "open",
+                 "A scene file, or a picture that holds its scene. Key: Ctrl+O. Both can "
+                 "also be dropped into the window"))
+    edits.choose_file = FilePurpose::open;
+  if (row.button("Save\u2026", "save", "The scene as a file. Key: Ctrl+S")) edits.choose_file = FilePurpose::save;
   edits.snapshot |=
       row.button("PNG", "snapshot",
                  "Save the picture as it is shown, with the scene that made it inside, as a new file in the "

@@ -24,7 +24,7 @@ bool choose_view(Compare& compare) {
 
 }  // namespace
 
-void draw_compare_panel(const ViewerState& state, Edits& edits, Requests& requests) {
+void draw_compare_panel(const ViewerState& state, Edits& edits) {
   Compare compare = state.compare;
   bool changed = choose_view(compare);
   if (compare.view == CompareView::relative)
@@ -42,9 +42,9 @@ void draw_compare_panel(const ViewerState& state, Edits& edits, Requests& reques
     changed = true;
   }
   const std::string obstacle = obstacle_to_compare(state);
-  requests.worst = row.button("Worst", "compare.worst",
-                              obstacle.empty() ? "Go to the pixel with the largest relative error. Key: W" : obstacle,
-                              obstacle.empty());
+  edits.worst_pixel |= row.button(
+      "Worst", "compare.worst", obstacle.empty() ? "Go to the pixel with the largest relative error. Key: W" : obstacle,
+      obstacle.empty());
   if (row.button(state.inspect ? "Pixel on###pixel" : "Pixel###pixel", "inspect",
                  "Tell the pixel under the mouse in numbers. Key: I"))
     edits.inspect = !state.inspect;

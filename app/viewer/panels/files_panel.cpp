@@ -16,15 +16,15 @@ namespace {
 constexpr float sheet_width = 460, list_height = 320;
 constexpr std::size_t longest_name = 256;
 
-bool is_wanted(const fs::path& file, FilesPanel::Purpose purpose) {
+bool is_wanted(const fs::path& file, FilePurpose purpose) {
   const fs::path ending = file.extension();
-  if (purpose == FilesPanel::Purpose::reference) return ending == ".exr" || ending == ".pfm";
+  if (purpose == FilePurpose::reference) return ending == ".exr" || ending == ".pfm";
   return ending == ".toml" || ending == ".png" || ending == ".exr";
 }
 
 }  // namespace
 
-void FilesPanel::show(Purpose purpose, const ViewerState& state) {
+void FilesPanel::show(FilePurpose purpose, const ViewerState& state) {
   purpose_ = purpose;
   name_ = state.file.empty() ? "scene.toml" : state.file.filename().string();
   look_into(state.folder.empty() ? fs::path(".") : state.folder);
@@ -86,7 +86,7 @@ void FilesPanel::draw_entries(Edits& edits) {
       into = entry.name;
     } else {
       name_ = entry.name;
-      if (purpose_ != Purpose::save) choose(edits);
+      if (purpose_ != FilePurpose::save) choose(edits);
     }
   }
   ImGui::EndChild();
@@ -101,7 +101,7 @@ void FilesPanel::draw_name(Edits& edits) {
   const float button = style::scaled(88), gap = ImGui::GetStyle().ItemSpacing.x;
   bool chosen = false, possible = true;
   const char* label = "Save";
-  if (purpose_ == Purpose::save) {
+  if (purpose_ == FilePurpose::save) {
     name_.resize(longest_name);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (button + gap));
     chosen = ImGui::InputText("##name", name_.data(), longest_name, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -127,9 +127,9 @@ void FilesPanel::draw_name(Edits& edits) {
 }
 
 void FilesPanel::choose(Edits& edits) {
-  auto& wanted = purpose_ == Purpose::reference ? edits.chart.load_reference
-                 : purpose_ == Purpose::open    ? edits.open
-                                                : edits.save;
+  auto& wanted = purpose_ == FilePurpose::reference ? edits.load_reference
+                 : purpose_ == FilePurpose::open    ? edits.open
+                                                    : edits.save;
   wanted = folder_ / name_;
   close();
 }

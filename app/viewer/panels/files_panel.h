@@ -14,9 +14,9 @@ class FilesPanel {
  public:
   enum class Purpose { none, open, save, reference };
 
-  void show(Purpose purpose, const ViewerState& state);
-  void close() { purpose_ = Purpose::none; }
-  bool is_open() const { return purpose_ != Purpose::none; }
+  void show(FilePurpose purpose, const ViewerState& state);
+  void close() { purpose_ = FilePurpose::none; }
+  bool is_open() const { return purpose_ != FilePurpose::none; }
   void draw(const Rect& area, Edits& edits);
 
  private:
@@ -29,7 +29,7 @@ class FilesPanel {
   void draw_name(Edits& edits);
   void choose(Edits& edits);
 
-  Purpose purpose_ = Purpose::none;
+  FilePurpose purpose_ = FilePurpose::none;
   std::filesystem::path folder_;
   std::vector<Entry> entries_;
   std::string name_;  ///< of the file to save

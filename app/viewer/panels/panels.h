@@ -8,15 +8,8 @@ namespace glimt {
 /// Name of the scene, samples done, speed, error and time.
 void draw_progress_panel(const ViewerState& state);
 
-/// What a button asks the screen for, which is no edit.
-struct Requests {
-  bool open = false, save = false;
-  bool reference = false;  ///< a file to measure against
-  bool worst = false;      ///< to go to the worst pixel
-};
-
 /// Pause, restart, undo, redo, files, snapshots.
-void draw_actions_panel(const ViewerState& state, Edits& edits, Requests& requests);
+void draw_actions_panel(const ViewerState& state, Edits& edits);
 
 /// Exposure, tone curve, view.
 void draw_display_panel(const ViewerState& state, Edits& edits);
@@ -25,7 +18,7 @@ void draw_display_panel(const ViewerState& state, Edits& edits);
 void draw_colour_scale(const char* label, const char* tip, const ColourScale& scale);
 
 /// What the picture is compared with, and how.
-void draw_compare_panel(const ViewerState& state, Edits& edits, Requests& requests);
+void draw_compare_panel(const ViewerState& state, Edits& edits);
 
 /// Every object by name; material, place and size of the one that is selected.
 void draw_objects_panel(const ViewerState& state, Edits& edits);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "chart/reference.h"
+#include "viewer/state/state.h"
 
 namespace glimt {
 namespace {
@@ -92,19 +93,19 @@ bool Charting::poll(std::string& error) {
   return poll_making() || news;
 }
 
-void Charting::apply(const ChartEdits& edits) {
+void Charting::apply(const Edits& edits) {
   Curves& curves = state_.curves;
-  if (edits.view) state_.view = *edits.view;
-  if (edits.show) curves.set_shown(*edits.show, true);
-  if (edits.hide) curves.set_shown(*edits.hide, false);
-  if (edits.base) curves.set_base(*edits.base);
-  if (edits.remove) curves.remove(*edits.remove);
-  if (edits.clear) curves.clear();
-  if (edits.target) state_.target = *edits.target;
+  if (edits.chart_view) state_.view = *edits.chart_view;
+  if (edits.show_curve) curves.set_shown(*edits.show_curve, true);
+  if (edits.hide_curve) curves.set_shown(*edits.hide_curve, false);
+  if (edits.base_curve) curves.set_base(*edits.base_curve);
+  if (edits.remove_curve) curves.remove(*edits.remove_curve);
+  if (edits.clear_chart) curves.clear();
+  if (edits.reference_target) state_.target = *edits.reference_target;
   if (edits.load_reference) load(*edits.load_reference);
   if (edits.make_reference && !busy()) make_reference();
-  if (edits.use_now && state_.making) use_made();
-  if (edits.stop_making) end_making();
+  if (edits.use_reference_now && state_.making) use_made();
+  if (edits.stop_reference) end_making();
   if (edits.drop_reference) set_reference(nullptr);
   if (edits.advise && !busy()) find(&ChartState::advice, advise_shadow_rays);
   if (edits.measure_families && !busy()) find(&ChartState::families, measure_families);

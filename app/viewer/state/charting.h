@@ -50,17 +50,8 @@ struct ChartState {
   std::optional<Finding<Families>> families;
 };
 
-/// What was asked of the chart while one picture of the window was drawn.
-struct ChartEdits {
-  std::optional<ChartView> view;
-  std::optional<std::uint64_t> show, hide, remove, base;  ///< a curve
-  std::optional<std::filesystem::path> load_reference;
-  std::optional<double> target;
-  bool clear = false;
-  bool make_reference = false, use_now = false, stop_making = false, drop_reference = false;
-  bool advise = false, measure_families = false, stop_measuring = false;
-  bool export_csv = false, export_svg = false;
-};
+/// What a person asked for (viewer/state/state.h).
+struct Edits;
 
 /// Keeps the chart: grows the curves, measures them against the reference, makes references and findings. Nothing
 /// waits for any of it.
@@ -78,7 +69,7 @@ class Charting {
   /// Takes in what was done in the background; true where there was something. An error, if any, goes into `error`.
   bool poll(std::string& error);
   /// Carries out what needs no files written.
-  void apply(const ChartEdits& edits);
+  void apply(const Edits& edits);
   /// A measurement or a reference is being made, which wants the machine to itself.
   bool busy() const { return making_ || finder_.busy(); }
 

@@ -114,8 +114,8 @@ void Controller::apply(const Edits& edits) {
   }
   if (edits.inspect) state_.inspect = *edits.inspect;
   if (edits.drag_view) state_.drag_view = *edits.drag_view;
-  charting_.apply(edits.chart);
-  export_chart(edits.chart);
+  charting_.apply(edits);
+  export_chart(edits);
   leave_machine_to_chart();
 }
 
@@ -131,7 +131,7 @@ void Controller::leave_machine_to_chart() {
   state_.paused = session_.paused();
 }
 
-void Controller::export_chart(const ChartEdits& edits) {
+void Controller::export_chart(const Edits& edits) {
   const auto& curves = state_.chart.curves.all();
   if (edits.export_csv) snapshots_.write(curves_csv(curves), stem_ + "-chart", "csv");
   if (edits.export_svg)

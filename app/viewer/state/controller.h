@@ -48,7 +48,7 @@ class Controller {
   void save(const std::filesystem::path& file);
   void reload();
   void want_snapshot(bool radiance);
-  void export_chart(const ChartEdits& edits);
+  void export_chart(const Edits& edits);
   void leave_machine_to_chart();
   void take_wanted_snapshots();
 

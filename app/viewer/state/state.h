@@ -49,6 +49,12 @@ inline bool drag_turns(const ViewerState& state) {
   return state.drag_view == DragView::automatic ? state.enclosed : state.drag_view == DragView::turn;
 }
 
+/// What a file is chosen for.
+enum class FilePurpose { none, open, save, reference };
+
+/// How large the picture is looked at.
+enum class PictureZoom { fitted, pixel_by_pixel };
+
 /// What a person asked for while one picture of the window was drawn.
 struct Edits {
   std::optional<Scene> scene;
@@ -64,7 +70,19 @@ struct Edits {
   bool undo = false, redo = false;
   bool snapshot = false, snapshot_exr = false;
   bool dismiss_hint = false;
-  ChartEdits chart;
+  std::optional<FilePurpose> choose_file;  ///< the sheet of files comes up
+  std::optional<PictureZoom> zoom;
+  bool worst_pixel = false;  ///< to go to it
+  bool toggle_help = false;
+  bool escape = false;  ///< close the sheets over the picture, or select nothing
+  std::optional<ChartView> chart_view;
+  std::optional<std::uint64_t> show_curve, hide_curve, remove_curve, base_curve;
+  std::optional<std::filesystem::path> load_reference;
+  std::optional<double> reference_target;  ///< relmse_estimate that the next is made to
+  bool clear_chart = false;
+  bool make_reference = false, use_reference_now = false, stop_reference = false, drop_reference = false;
+  bool advise = false, measure_families = false, stop_measuring = false;
+  bool export_csv = false, export_svg = false;
   std::optional<Compare> compare;
   std::optional<bool> inspect;
   std::optional<DragView> drag_view;

@@ -35,7 +35,7 @@ void write_reference(const fs::path& file, Scene scene, int spp = 64) {
 
 void load_reference(Offscreen& window, const fs::path& file) {
   Edits edits;
-  edits.chart.load_reference = file;
+  edits.load_reference = file;
   window.apply(edits);
 }
 
@@ -165,7 +165,7 @@ TEST_F(ChartPanel, FilesDroppedOntoTheChartAreReferences) {
     ImGui::GetIO().MousePos = {x, y};
     Edits edits;
     window.screen().drop(file, edits);
-    return edits.chart.load_reference ? "reference" : edits.open ? "open" : "nothing";
+    return edits.load_reference ? "reference" : edits.open ? "open" : "nothing";
   };
   EXPECT_STREQ(drop("a.exr", hide.x, hide.y), "reference");
   EXPECT_STREQ(drop("a.exr", 10, 10), "open");
@@ -178,8 +178,8 @@ TEST_F(ChartPanel, MakesAReferenceWhileThePictureWaits) {
   show_chart(window);
   ASSERT_TRUE(window.draw_until([&] { return window.state().frame && window.state().frame->samples > 2; }));
   Edits edits;
-  edits.chart.target = 0.02;
-  edits.chart.make_reference = true;
+  edits.reference_target = 0.02;
+  edits.make_reference = true;
   window.apply(edits);
   EXPECT_TRUE(window.state().paused) << "so that times stay true";
   ASSERT_TRUE(window.draw_until([&] { return chart(window).reference_fits; }));
@@ -193,8 +193,8 @@ TEST_F(ChartPanel, MakesAReferenceWhileThePictureWaits) {
   }));
 
   edits = {};
-  edits.chart.target = 1e-6;
-  edits.chart.make_reference = true;
+  edits.reference_target = 1e-6;
+  edits.make_reference = true;
   window.apply(edits);
   ASSERT_TRUE(window.draw_until([&] { return chart(window).making != nullptr; }));
   window.press("reference.use");

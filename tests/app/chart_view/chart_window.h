@@ -9,7 +9,7 @@ inline const ChartState& chart(const Offscreen& window) { return window.state().
 
 inline void show_chart(Offscreen& window) {
   Edits edits;
-  edits.chart.view = ChartView{true, Across::seconds};
+  edits.chart_view = ChartView{true, Across::seconds};
   window.apply(edits);
 }
 

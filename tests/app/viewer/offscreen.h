@@ -19,6 +19,7 @@
 #include "film/file_bytes.h"
 #include "film/image_formats.h"
 #include "scene/file/scene_file.h"
+#include "viewer/keys.h"
 #include "viewer/screen.h"
 #include "viewer/state/controller.h"
 
@@ -64,6 +65,18 @@ class Offscreen {
   void apply(const Edits& edits) {
     controller_->apply(edits);
     draw();
+  }
+  /// What a person asks for goes through the screen to the controller, as in the window's loop.
+  void ask(Edits edits) {
+    screen_->lay_out(controller_->state(), scale_, edits);
+    controller_->apply(edits);
+    draw();
+  }
+  /// A key, with nothing else going on.
+  void key(const KeyPress& press) {
+    Edits edits;
+    press_key(press, {}, state(), edits);
+    ask(edits);
   }
   /// Edits the scene as `change` does.
   void edit(const std::function<void(Scene&)>& change) {

@@ -67,9 +67,7 @@ TEST_F(ViewerEdit, ClickSelectsWhatIsSeenThere) {
   click(window, {48, 70});
   EXPECT_EQ(window.state().selected, object_called(scene, "floor"));
   EXPECT_FALSE(window.widgets().contains("object.radius"));
-  Edits edits;
-  window.screen().escape(edits);
-  window.apply(edits);
+  window.key({key_escape});
   EXPECT_FALSE(window.state().selected);
   EXPECT_EQ(window.state().scene, scene) << "looking changes nothing";
 }
@@ -125,7 +123,7 @@ TEST_F(ViewerEdit, CtrlScrollMagnifiesThePictureAlone) {
   EXPECT_EQ(window.state().scene, before);
   // A click goes where the magnified picture shows the thing.
   click(window, middle_of(before, "mirror"));
-  window.screen().fit_picture();
+  window.key({'f'});
   window.draw();
   EXPECT_LT(window.widget("image").width, 1280);
 }

@@ -360,17 +360,16 @@ TEST_P(Fit, SheetsLieOnThePicture) {
   const Size size = GetParam();
   Offscreen window(small_room(), size.width, size.height, size.scale, size.ratio);
   ASSERT_TRUE(window.draw_until_finished());
-  window.screen().toggle_help();
-  window.draw();
+  window.key({key_f1});
   save_screenshot(window, "help", size);
-  window.screen().toggle_help();
-  for (const auto purpose : {FilesPanel::Purpose::open, FilesPanel::Purpose::save}) {
+  window.key({key_f1});
+  for (const auto purpose : {FilePurpose::open, FilePurpose::save}) {
     Edits edits;
     edits.folder = GLIMT_SCENES;
     window.apply(edits);
-    window.screen().show_files(purpose, window.state());
-    window.draw();
-    save_screenshot(window, purpose == FilesPanel::Purpose::open ? "open" : "save", size);
+    edits.choose_file = purpose;
+    window.ask(edits);
+    save_screenshot(window, purpose == FilePurpose::open ? "open" : "save", size);
     const Rect cancel = window.widget("files.cancel");
     EXPECT_LE(cancel.x + cancel.width, make_layout(static_cast<float>(size.width), 0, size.scale).column.x);
     EXPECT_LE(cancel.y + cancel.height, static_cast<float>(size.height));
