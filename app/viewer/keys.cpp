@@ -88,7 +88,7 @@ const std::vector<KeyGroup>& table() {
             "",
             {{{'s'}, [](S&, Edits& edits) { edits.snapshot = true; }, When::idle, "snapshot"},
              {{.key = 's', .shift = true}, [](S&, Edits& edits) { edits.snapshot_exr = true; }}}},
-           {"undo; redo; redo",
+           {"undo, redo (either)",
             "",
             {{{.key = 'z', .control = true}, [](S&, Edits& edits) { edits.undo = true; }, When::idle, "undo"},
              {{.key = 'y', .control = true}, [](S&, Edits& edits) { edits.redo = true; }},

@@ -75,10 +75,10 @@ TEST_P(ChartSizes, NothingOverlapsOrSticksOut) {
       for (const auto& [other, s] : widgets)
         EXPECT_TRUE(other <= name || !is_of_chart(other) || apart(w, s)) << name << " and " << other;
     }
-    window.screen().toggle_help();
+    window.key({key_f1});
     window.draw();
     save_screenshot(window, std::string("chart-help-") + shape + std::to_string(width));
-    window.screen().toggle_help();
+    window.key({key_f1});
     window.draw();
     save_screenshot(window, std::string("chart-") + shape + "-" + std::to_string(width) + "-" +
                                 std::to_string(static_cast<int>(scale)));

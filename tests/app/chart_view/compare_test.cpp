@@ -24,11 +24,7 @@ void compare_by(Offscreen& window, CompareView view) {
   window.apply(edits);
 }
 
-void press(Offscreen& window, char letter) {
-  Edits edits;
-  window.screen().press(letter, window.state(), edits);
-  window.apply(edits);
-}
+void press(Offscreen& window, char letter) { window.key({letter}); }
 
 /// Renders 4 spp, holds it, and goes on with another seed and 30 shadow rays.
 void hold_and_change(Offscreen& window) {
