@@ -34,7 +34,7 @@ inline constexpr std::array<FamilyText, 4> family_texts{{
     {"Caustics", "Light that reaches a matt surface by way of mirrors or glass. More light paths take noise off it."},
     {"Caustics in mirrors and glass",
      "Caustics that are seen in a mirror or through glass. Sphere connections find those over a single sphere; all "
-     "others need more samples."},
+     "others are left to chance: more samples."},
     {"Other light",
      "Lamps, and light off matt surfaces. More samples take noise off it, or more shadow rays where they pay."},
     {"Other light in mirrors and glass",

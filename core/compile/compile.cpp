@@ -145,16 +145,7 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
   add_target(l, material, {c, sphere.radius}, surface, surface);
   if (glass || !around) l.facing_spheres.push_back({&sphere, surface});
-  if (is_lamp(material) && !around)
-    l.lamps.push_back(
-        {l.scene.render.light_sampling == LightSampling::area ? LampShape::sphere_by_area : LampShape::sphere,
-         c,
-         dvec3{sphere.radius, 0, 0},
-         {},
-         {},
-         material_info(material.type).radiance(material),
-         surface,
-         surface});
+  if (!around) add_sphere_lamp(l, c, sphere.radius, material, surface);
 }
 
 void fill_surfaces(Lowering& l) {
@@ -182,6 +173,19 @@ void fill_surfaces(Lowering& l) {
   l.out.has_glass = (l.out.lobes & transmitting_lobes) != 0;
 }
 
+/// The families of light that no estimator but chance finds.
+void describe_chance(Lowering& l) {
+  CompiledScene& out = l.out;
+  const auto by_chance = [&](const std::string& light) { out.compiled_in.push_back("by chance alone: " + light); };
+  const Settings& s = out.settings;
+  if (out.lamps.rows() == 0) return;
+  if (s.light_sampling == LightSampling::none) by_chance("light straight from lamps to matt surfaces");
+  if (l.targets.empty() || s.caustics == Caustics::off) return;
+  if (out.light_paths == 0) by_chance("caustics on matt surfaces in view");
+  by_chance(std::string("caustics seen in mirrors and through glass") +
+            (out.chain_spheres.empty() ? "" : ", but for those over one sphere"));
+}
+
 /// What the kernel does and leaves out in this scene, in words.
 void describe(Lowering& l) {
   CompiledScene& out = l.out;
@@ -202,6 +206,7 @@ void describe(Lowering& l) {
   feature(out.has_glow, "glowing surfaces");
   if (out.cutaway) out.compiled_in.emplace_back("a cutaway, and so caustics by chance alone");
   if (!out.room.empty() && !out.room_hides_lamps) out.left_out.emplace_back("shadow tests against the room");
+  describe_chance(l);
 }
 
 }  // namespace
@@ -231,6 +236,7 @@ CompiledScene compile(const Scene& scene) {
   lower_aims(l);
   lower_chains(l);
   mark_lamp_edges(l);
+  find_lamp_images(l);
   describe(l);
   warn(l);
   return std::move(l.out);

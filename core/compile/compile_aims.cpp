@@ -34,11 +34,11 @@ namespace {
 /// A rough guess, never 0 where some light arrives, of the integral of the cosine at the lamp over the directions to
 /// the target, steradians.
 double seen_cosine(const LampPiece& lamp, const BoundingSphere& target) {
-  const bool sphere = lamp.shape == LampShape::sphere || lamp.shape == LampShape::sphere_by_area;
-  const bool triangle = lamp.shape == LampShape::triangle;
-  const dvec3 way = target.center - (sphere ? lamp.p : lamp.p + (lamp.e1 + lamp.e2) / (triangle ? 3.0 : 2.0));
+  const LampBody body = body_of(lamp.shape);
+  const bool sphere = body.round();
+  const dvec3 way = target.center - body.middle();
   const double distance = length(way);
-  const double height = sphere ? distance : dot(lamp.normal, way);
+  const double height = sphere ? distance : dot(body.normal, way);
   if (!sphere && height <= -target.radius) return 0;
   const double sin2 = std::min(1.0, target.radius * target.radius / std::max(distance * distance, 1e-300));
   const double cone = 2 * std::numbers::pi * sin2 / (1 + std::sqrt(1 - sin2));
@@ -66,7 +66,7 @@ void lower_aims(Lowering& l) {
     for (std::size_t k = 0; k < l.targets.size(); ++k) {
       const dvec3& radiance = l.lamps[i].radiance;
       const double sum = radiance.r + radiance.g + radiance.b;
-      const double guess = sum * area_of(l.lamps[i]) * seen_cosine(l.lamps[i], l.targets[k].bounds);
+      const double guess = sum * area_of(l.lamps[i].shape) * seen_cosine(l.lamps[i], l.targets[k].bounds);
       if (!(guess > 0)) continue;
       aims.push_back({i, k, guess});
       flux += guess;
@@ -91,7 +91,7 @@ void lower_aims(Lowering& l) {
     row.set3(AimColumn::center_x, bounds.center);
     row.set(AimColumn::radius, bounds.radius);
     row.set_int(AimColumn::target, static_cast<std::int32_t>(aims[i].target));
-    row.set3(AimColumn::weight_r, lamp.radiance * (area_of(lamp) / probability[i] / out.light_paths));
+    row.set3(AimColumn::weight_r, lamp.radiance * (area_of(lamp.shape) / probability[i] / out.light_paths));
     row.set(AimColumn::alias_threshold, alias[i].threshold);
     row.set_int(AimColumn::alias_other, static_cast<std::int32_t>(alias[i].other));
   }

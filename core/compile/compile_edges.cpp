@@ -17,14 +17,11 @@ dvec3 vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 /// Corners of a lamp, or points around the outline of a spherical one as the eye sees it; empty where it does not shine
 /// on the eye.
 std::vector<dvec3> outline(const LampPiece& lamp, const dvec3& eye) {
-  const bool sphere = lamp.shape == LampShape::sphere || lamp.shape == LampShape::sphere_by_area;
-  if (!sphere) {
-    if (dot(lamp.normal, eye - lamp.p) <= 0) return {};
-    if (lamp.shape == LampShape::triangle) return {lamp.p, lamp.p + lamp.e1, lamp.p + lamp.e2};
-    return {lamp.p, lamp.p + lamp.e1, lamp.p + lamp.e1 + lamp.e2, lamp.p + lamp.e2};
-  }
-  const dvec3 way = lamp.p - eye;
-  const double distance = length(way), radius = lamp.e1.x;
+  const LampBody body = body_of(lamp.shape);
+  const dvec3& first = body.outline[0];
+  if (!body.round()) return dot(body.normal, eye - first) > 0 ? body.outline : std::vector<dvec3>{};
+  const dvec3 way = first - eye;
+  const double distance = length(way), radius = body.radius;
   if (distance <= radius) return {};
   const double sine = radius / distance, cosine = std::sqrt(1 - sine * sine);
   const dvec3 axis = way / distance;
@@ -33,7 +30,7 @@ std::vector<dvec3> outline(const LampPiece& lamp, const dvec3& eye) {
   constexpr int sides = 64;
   for (int i = 0; i < sides; ++i) {
     const double angle = 2 * std::numbers::pi * i / sides;
-    points.push_back(lamp.p - axis * (radius * sine) + (u * std::cos(angle) + v * std::sin(angle)) * (radius * cosine));
+    points.push_back(first - axis * (radius * sine) + (u * std::cos(angle) + v * std::sin(angle)) * (radius * cosine));
   }
   return points;
 }

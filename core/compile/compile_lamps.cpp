@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "compile/lowering.h"
+#include "compile/near_lamps.h"
 
 namespace glimt {
 
@@ -14,32 +14,21 @@ using glm::dvec3;
 void add_flat_lamp(Lowering& l, const std::vector<dvec3>& v, const dvec3& normal, const Material& material,
                    int first_surface, int last_surface) {
   if (!is_lamp(material)) return;
-  const bool by_solid_angle = l.scene.render.light_sampling == LightSampling::solid_angle;
   const dvec3 radiance = material_info(material.type).radiance(material);
-  auto add = [&](LampShape shape, const dvec3& e1, const dvec3& e2) {
-    l.lamps.push_back({shape, v[0], e1, e2, normal, radiance, first_surface, last_surface});
-  };
+  auto add = [&](const LampShape& shape) { l.lamps.push_back({shape, radiance, first_surface, last_surface}); };
   if (is_parallelogram(v)) {
-    const dvec3 e1 = v[1] - v[0], e2 = v[3] - v[0];
-    const bool rectangle = std::abs(dot(e1, e2)) <= 1e-9 * length(e1) * length(e2);
-    add(by_solid_angle && rectangle ? LampShape::rectangle : LampShape::parallelogram, e1, e2);
+    add(ParallelogramLamp{{v[0], v[1] - v[0], v[3] - v[0], normal}});
   } else {
-    for (std::size_t i = 2; i < v.size(); ++i) add(LampShape::triangle, v[i - 1] - v[0], v[i] - v[0]);
+    for (std::size_t i = 2; i < v.size(); ++i) add(TriangleLamp{{v[0], v[i - 1] - v[0], v[i] - v[0], normal}});
   }
 }
 
-double area_of(const LampPiece& p) {
-  switch (p.shape) {
-    case LampShape::parallelogram:
-    case LampShape::rectangle:
-      return length(cross(p.e1, p.e2));
-    case LampShape::triangle:
-      return length(cross(p.e1, p.e2)) / 2;
-    case LampShape::sphere:
-    case LampShape::sphere_by_area:
-      return 4 * std::numbers::pi * p.e1.x * p.e1.x;
-  }
-  return 0;
+void add_sphere_lamp(Lowering& l, const dvec3& center, double radius, const Material& material, int surface) {
+  if (!is_lamp(material)) return;
+  const RoundLamp round{center, radius};
+  const bool by_area = l.scene.render.light_sampling == LightSampling::area;
+  l.lamps.push_back({by_area ? LampShape(SphereByAreaLamp{round}) : LampShape(SphereLamp{round}),
+                     material_info(material.type).radiance(material), surface, surface});
 }
 
 std::vector<AliasEntry> alias_table(const std::vector<double>& probability) {
@@ -66,9 +55,11 @@ std::vector<AliasEntry> alias_table(const std::vector<double>& probability) {
 }
 
 void lower_lamps(Lowering& l) {
-  std::erase_if(l.lamps, [](const LampPiece& p) { return p.radiance == dvec3{0} || area_of(p) == 0; });
+  std::erase_if(l.lamps, [](const LampPiece& p) { return p.radiance == dvec3{0} || area_of(p.shape) == 0; });
+  choose_lamp_sampling(l);
   std::vector<double> probability;
-  for (const LampPiece& p : l.lamps) probability.push_back(area_of(p) * (p.radiance.r + p.radiance.g + p.radiance.b));
+  for (const LampPiece& p : l.lamps)
+    probability.push_back(area_of(p.shape) * (p.radiance.r + p.radiance.g + p.radiance.b));
   const double total = std::accumulate(probability.begin(), probability.end(), 0.0);
   for (double& p : probability) p /= total;
   const std::vector<AliasEntry> alias = alias_table(probability);
@@ -77,22 +68,18 @@ void lower_lamps(Lowering& l) {
   for (std::size_t i = 0; i < l.lamps.size(); ++i) {
     const LampPiece& p = l.lamps[i];
     const TableRow<LampColumn> row{table, i};
-    row.set3(LampColumn::p_x, p.p);
-    row.set3(LampColumn::e1_x, p.e1);
-    row.set3(LampColumn::e2_x, p.e2);
-    row.set3(LampColumn::normal_x, p.normal);
-    row.set_int(LampColumn::shape, static_cast<int>(p.shape));
+    std::visit([&](const auto& shape) { shape.lower(LampRowWriter{row}); }, p.shape);
+    row.set_int(LampColumn::shape, static_cast<std::int32_t>(p.shape.index()));
     row.set_int(LampColumn::first_surface, p.first_surface);
     row.set_int(LampColumn::last_surface, p.last_surface);
-    const bool by_area = p.shape != LampShape::sphere && p.shape != LampShape::rectangle;
-    const double inverse_choice = (by_area ? area_of(p) : 1) / probability[i];
+    const bool by_area = is_sampled_by_area(p.shape);
+    const double area = area_of(p.shape), inverse_choice = (by_area ? area : 1) / probability[i];
     row.set3(LampColumn::weight_r, p.radiance * inverse_choice);
     row.set(LampColumn::inverse_choice, inverse_choice);
-    row.set(LampColumn::length_1, length(p.e1));
-    row.set(LampColumn::length_2, length(p.e2));
+    row.set(LampColumn::area_factor, by_area ? 1 : area);
     row.set(LampColumn::alias_threshold, alias[i].threshold);
     row.set_int(LampColumn::alias_other, static_cast<int>(alias[i].other));
-    l.out.has_lamp_shape[static_cast<std::size_t>(p.shape)] = true;
+    l.out.has_lamp_shape[p.shape.index()] = true;
   }
   for (int surface = 0; surface < l.out.surfaces.rows(); ++surface) {
     const auto piece = std::ranges::find_if(

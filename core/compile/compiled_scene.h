@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "lamp/shapes.h"
+#include "math/table.h"
 #include "scene/scene.h"
 
 /// What the kernel reads: flat arrays of floats in compiled space (world space moved so that the scene is centred on
@@ -41,38 +41,6 @@ enum class Column {
 /// One of the columns that belong to lobes.
 constexpr Column lobe_column(int number) { return static_cast<Column>(static_cast<int>(Column::count) + number); }
 
-/// Columns of the lamp table: parallelograms, rectangles and triangles p + a e1 + b e2, and spheres.
-enum class LampColumn {
-  p_x,
-  p_y,
-  p_z,  ///< corner, or centre of a sphere
-  e1_x,
-  e1_y,
-  e1_z,
-  e2_x,
-  e2_y,
-  e2_z,  ///< edges; e1_x is the radius of a sphere
-  normal_x,
-  normal_y,
-  normal_z,  ///< of the emitting side
-  shape,     ///< LampShape as an int32
-  first_surface,
-  last_surface,  ///< surfaces that cannot hide a point of the lamp, as int32: its own flat or convex shape
-  weight_r,
-  weight_g,
-  weight_b,        ///< radiance * inverse_choice
-  inverse_choice,  ///< area / probability of choice; only 1 / probability where points are chosen by solid angle
-  length_1,
-  length_2,         ///< of the edges of a rectangle
-  alias_threshold,  ///< alias table (Walker 1977; Vose 1991): keep the entry below it, else take
-  alias_other,      ///< this one, as int32
-  count
-};
-
-/// What is sampled, and how: `rectangle` and `sphere` by solid angle, the others by area.
-enum class LampShape { parallelogram, triangle, sphere, rectangle, sphere_by_area };
-inline constexpr std::size_t lamp_shapes = 5;
-
 /// Columns of the table that light paths begin from: a piece of a lamp and a mirror or glass that it is aimed at, by
 /// way of the sphere around it.
 enum class AimColumn {
@@ -85,41 +53,9 @@ enum class AimColumn {
   weight_r,
   weight_g,
   weight_b,         ///< radiance * area of the lamp / probability of choice / light paths of a pass
-  alias_threshold,  ///< as in the lamp table
+  alias_threshold,  ///< see math/alias.h
   alias_other,
   count
-};
-
-/// Columns of floats, each 64-byte aligned and padded to a multiple of 32 with zeros.
-template <class ColumnType>
-class Table {
- public:
-  Table() : Table(0) {}
-  static constexpr int padding = 32;  ///< columns have a multiple of so many places
-  explicit Table(int rows, int columns = static_cast<int>(ColumnType::count))
-      : rows_(rows),
-        stride_((rows + padding - 1) / padding * padding),
-        data_(allocate(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(columns))) {}
-
-  int rows() const { return rows_; }
-  /// Floats from one column to the next.
-  int stride() const { return stride_; }
-  float* operator[](ColumnType c) { return data_.get() + static_cast<std::ptrdiff_t>(c) * stride_; }
-  const float* operator[](ColumnType c) const { return data_.get() + static_cast<std::ptrdiff_t>(c) * stride_; }
-
- private:
-  struct Free {
-    void operator()(float* p) const { std::free(p); }
-  };
-  static std::unique_ptr<float[], Free> allocate(std::size_t floats) {
-    std::unique_ptr<float[], Free> p(floats ? static_cast<float*>(std::aligned_alloc(64, floats * sizeof(float)))
-                                            : nullptr);
-    for (std::size_t i = 0; i < floats; ++i) p[i] = 0;
-    return p;
-  }
-  int rows_;
-  int stride_;
-  std::unique_ptr<float[], Free> data_;
 };
 
 /// A pair of parallel faces of the closed convex room around the camera: |n.x - middle| <= half inside.
@@ -180,6 +116,12 @@ struct ChainSphere {
   bool glass, refracts;  ///< refracts: with nothing inside
 };
 
+/// A rectangle of the image, pixels from its upper left corner, where a small lamp is seen, straight or by way of
+/// mirrors and glass; see kernel/lamps/lamp_images.h.
+struct LampImage {
+  double x0, y0, x1, y1;
+};
+
 struct CompiledScene {
   Settings settings;
   int width = 0, height = 0;
@@ -203,6 +145,7 @@ struct CompiledScene {
   float light_path_noise = 0;  ///< see kernel/geometry/pinhole.h
   Table<AimColumn> aims;
   std::vector<int> lamp_edges;  ///< pixels that edges of lamps come near, in order; see kernel/lamps/lamp_edges.h
+  std::vector<LampImage> lamp_images;  ///< disjoint
   std::vector<ChainSphere> chain_spheres;
   std::uint32_t lobes = 0;        ///< that some surface has; a LobeSet of material/lobes.h
   bool has_glass = false;         ///< light goes on behind some surface
@@ -211,10 +154,15 @@ struct CompiledScene {
   int room_surfaces = 0;          ///< how many there are; they come first
   bool camera_outside = false;    ///< there is a closed room, and the eye is not in it
   bool room_hides_lamps = false;  ///< a lamp is partly outside the room, so shadow rays test the room too
-  std::array<bool, lamp_shapes> has_lamp_shape{};  ///< by LampShape
+  std::array<bool, lamp_shapes> has_lamp_shape{};  ///< by place in the list of shapes
 
   // For people: what the kernel will and will not do in this scene, and what they should know about it.
   std::vector<std::string> compiled_in, left_out, warnings;
+
+  template <class Shape>
+  bool has_lamp() const {
+    return has_lamp_shape[static_cast<std::size_t>(lamp_shape_number<Shape>)];
+  }
 };
 
 /// Lowers a valid scene (validate.h); throws SceneError for one that is not, naming the first problem. Objects and

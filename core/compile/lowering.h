@@ -1,9 +1,8 @@
 #pragma once
 
-#include <bit>
-
 #include "compile/compiled_scene.h"
 #include "compile/reach.h"
+#include "lamp/list.h"
 #include "scene/fields.h"
 
 /// The parts of compile(): each lowers one kind of object into `out`.
@@ -17,10 +16,9 @@ struct Surface {
   double eta = 1;
 };
 
-/// A piece of a lamp, in compiled space.
+/// A piece of a lamp: a row of the lamp table.
 struct LampPiece {
   LampShape shape;
-  glm::dvec3 p, e1, e2, normal;  ///< sphere: centre, (radius, 0, 0)
   glm::dvec3 radiance;
   int first_surface, last_surface;
 };
@@ -63,20 +61,6 @@ struct Lowering {
   }
 };
 
-/// A row of a table to be filled.
-template <class ColumnType>
-struct TableRow {
-  Table<ColumnType>& table;
-  std::size_t row;
-
-  void set(ColumnType c, double value) const { table[c][row] = static_cast<float>(value); }
-  /// In this column and the two after it.
-  void set3(ColumnType first, const glm::dvec3& v) const {
-    for (int k = 0; k < 3; ++k) set(static_cast<ColumnType>(static_cast<int>(first) + k), v[k]);
-  }
-  void set_int(ColumnType c, std::int32_t value) const { table[c][row] = std::bit_cast<float>(value); }
-};
-
 std::array<float, 3> to_floats(const glm::dvec3& v);
 
 /// True for four vertices of a parallelogram, in order.
@@ -93,10 +77,10 @@ double relative_ior(const Scene& scene, const Mesh& mesh);
 void add_flat_lamp(Lowering& l, const std::vector<glm::dvec3>& vertices, const glm::dvec3& normal,
                    const Material& material, int first_surface, int last_surface);
 
+void add_sphere_lamp(Lowering& l, const glm::dvec3& center, double radius, const Material& material, int surface);
+
 /// The lamp table from the pieces gathered, each chosen with a probability in proportion to its power.
 void lower_lamps(Lowering& l);
-
-double area_of(const LampPiece& piece);
 
 struct AliasEntry {
   double threshold;
@@ -117,6 +101,9 @@ void lower_chains(Lowering& l);
 
 /// Pixels that look at edges of lamps.
 void mark_lamp_edges(Lowering& l);
+
+/// Where in the image small lamps are seen.
+void find_lamp_images(Lowering& l);
 
 /// Warnings for scenes in which the chosen estimators cannot hold.
 void warn(Lowering& l);

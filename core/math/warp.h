@@ -43,6 +43,14 @@ F arcsine(F x) {
   return select(x < F(0.0f), F(0.0f) - result, result);
 }
 
+/// The angle in [0, pi] with that sine and cosine.
+template <class F>
+F angle_of(F sin, F cos) {
+  const F from_sin = arcsine(sin), pi(std::numbers::pi_v<float>);
+  const F flat = select(cos < F(0.0f), pi - from_sin, from_sin);
+  return select(sin < abs(cos), flat, F(0.5f) * pi - arcsine(cos));
+}
+
 /// A point on the unit sphere; pdf_w = 1 / (4 pi).
 template <class F>
 Vec3<F> uniform_sphere(F u, F v) {

@@ -16,8 +16,8 @@ enum class Method {
 enum class LightSampling {
   none,         ///< not at all: lamps are reached by chance
   area,         ///< uniform by area: the report's eq. 15
-  solid_angle,  ///< uniform by solid angle: rectangles (Urena et al. 2013) and spheres; other lamps by area
-  automatic,    ///< spheres by solid angle, flat lamps by area: the best measured
+  solid_angle,  ///< uniform by solid angle; with MIS, lamps of several triangles by area
+  automatic,    ///< flat lamps by area and spheres by solid angle; near to what they light flat lamps too, with MIS
 };
 
 /// Whether light sampling and BSDF sampling share the lamps that both can reach, by the balance heuristic (Veach 1997).

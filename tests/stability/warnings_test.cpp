@@ -1,6 +1,7 @@
 // Scenes in which a chosen method cannot hold say so, and scenes in which it can do not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "compile/compiled_scene.h"
@@ -56,45 +57,71 @@ TEST(Warnings, ShippedScenesHaveNoneWithDefaultsAndWithTheReportsMethod) {
 
 // Failure: a corner full of bright dots (NearLamp shows it) and nobody knows why.
 TEST(Warnings, LampSampledByAreaThatTouchesAReflectingSurface) {
-  const std::string touches = "touches or nearly touches";
+  const auto warns_by_area = [](const std::function<void(Scene&)>& edit) {
+    return warns("touches or nearly touches", [&](Scene& s) {
+      s.render.light_sampling = LightSampling::area;
+      edit(s);
+    });
+  };
   const auto to_the_wall = [](Scene& s) { move_lamp(s, {1.5, 0, 0}); };
-  EXPECT_TRUE(warns(touches, to_the_wall));
-  EXPECT_TRUE(warns(touches, [](Scene& s) { move_lamp(s, {1.495, 0, 0}); })) << "5 mm are too near for 1 m";
-  EXPECT_FALSE(warns(touches, [](Scene& s) { move_lamp(s, {1.45, 0, 0}); }));
-  EXPECT_TRUE(warns(touches, [](Scene& s) {
+  EXPECT_TRUE(warns_by_area(to_the_wall));
+  EXPECT_TRUE(warns_by_area([](Scene& s) { move_lamp(s, {1.495, 0, 0}); })) << "5 mm are too near for 1 m";
+  EXPECT_FALSE(warns_by_area([](Scene& s) { move_lamp(s, {1.45, 0, 0}); }));
+  EXPECT_TRUE(warns_by_area([](Scene& s) {
     s.spheres.push_back({"ball", "white", {0, 2.6, 0}, 0.299});
   })) << "a ball below it";
-  EXPECT_FALSE(warns(touches, [](Scene& s) { s.spheres.push_back({"ball", "white", {0, 2.6, 0}, 0.2}); }));
-  EXPECT_TRUE(warns(touches, [](Scene& s) { s.polygons[1].material = "lamp"; })) << "the whole ceiling";
-  EXPECT_TRUE(warns(touches, [](Scene& s) {
+  EXPECT_FALSE(warns_by_area([](Scene& s) { s.spheres.push_back({"ball", "white", {0, 2.6, 0}, 0.2}); }));
+  EXPECT_TRUE(warns_by_area([](Scene& s) { s.polygons[1].material = "lamp"; })) << "the whole ceiling";
+  EXPECT_TRUE(warns_by_area([](Scene& s) {
     s.meshes.push_back(tetrahedron("block", "white", {0, 2.9 - 0.5 / std::sqrt(3.0), 0}, 0.5));
   })) << "a block with an edge on it";
-  EXPECT_TRUE(warns(touches, [](Scene& s) {
+  EXPECT_TRUE(warns_by_area([](Scene& s) {
     s.spheres.push_back({"bulb", "lamp", {0, 0.3, 0}, 0.3});
-    s.render.light_sampling = LightSampling::area;
   })) << "a bulb on the floor";
   // What cannot be lit, or is not next to it, or is sampled otherwise.
-  EXPECT_FALSE(warns(touches, [](Scene& s) { move_lamp(s, {0, 0.0999, 0}); })) << "its back to the ceiling";
-  EXPECT_FALSE(warns(touches, [&](Scene& s) {
+  EXPECT_FALSE(warns_by_area([](Scene& s) { move_lamp(s, {0, 0.0999, 0}); })) << "its back to the ceiling";
+  EXPECT_FALSE(warns_by_area([&](Scene& s) {
     to_the_wall(s);
     s.polygons[5].material = "mirror";
   }));
-  EXPECT_FALSE(warns(touches, [&](Scene& s) {
+  EXPECT_FALSE(warns_by_area([&](Scene& s) {
     to_the_wall(s);
     s.render.light_sampling = LightSampling::solid_angle;
   }));
-  EXPECT_FALSE(warns(touches, [&](Scene& s) {
+  EXPECT_FALSE(warns_by_area([&](Scene& s) {
     to_the_wall(s);
     s.render.mis = Mis::on;
   }));
-  EXPECT_FALSE(warns(touches, [](Scene& s) {
-    s.spheres.push_back({"bulb", "lamp", {0, 0.3, 0}, 0.3});
-  })) << "automatic samples spheres by solid angle";
-  EXPECT_TRUE(warns(touches, [&](Scene& s) {
-    to_the_wall(s);
+}
+
+// What is near to a lamp is sampled by solid angle without being asked for, rectangles or not, and `info` says so;
+// elsewhere nothing changes.
+TEST(Warnings, NoneWhereAutomaticSamplingChoosesTheSolidAngle) {
+  const auto chooses = [](const std::function<void(Scene&)>& edit) {
+    Scene scene = lit_box();
+    edit(scene);
+    const CompiledScene c = compile(scene);
+    for (const std::string& w : c.warnings) ADD_FAILURE() << w;
+    const bool told = std::ranges::any_of(
+        c.compiled_in, [](const std::string& line) { return line.find("MIS and solid-angle sampling") == 0; });
+    EXPECT_EQ(told, c.settings.mis != scene.render.mis);
+    EXPECT_TRUE(told || !c.has_lamp<RectangleLamp>());
+    return told;
+  };
+  EXPECT_FALSE(chooses([](Scene&) {}));
+  EXPECT_TRUE(chooses([](Scene& s) { move_lamp(s, {1.5, 0, 0}); })) << "a wall";
+  EXPECT_TRUE(chooses([](Scene& s) {
+    s.spheres.push_back({"ball", "white", {0, 2.6, 0}, 0.29});
+  })) << "a ball below it";
+  EXPECT_FALSE(chooses([](Scene& s) { s.spheres.push_back({"ball", "white", {0, 2.4, 0}, 0.2}); }));
+  EXPECT_FALSE(chooses([](Scene& s) {
+    move_lamp(s, {1.5, 0, 0});
+    s.render.mis = Mis::on;
+  })) << "bounded already";
+  EXPECT_TRUE(chooses([](Scene& s) {
+    move_lamp(s, {1.5, 0, 0});
     s.polygons[6].vertices[0].z -= 0.1;
-    s.render.light_sampling = LightSampling::solid_angle;
-  })) << "no rectangle, so sampled by area all the same";
+  })) << "no rectangle";
 }
 
 // Failure: a dark picture with a few bright dots, which looks finished (TinyLamp shows it).

@@ -7,6 +7,7 @@
 #include "kernel/caustics/found_chain.h"
 #include "kernel/caustics/sphere_chain.h"
 #include "kernel/entry/features.h"
+#include "kernel/lamps/sample_lamp.h"
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 #include "kernel/transport/random.h"
@@ -81,30 +82,30 @@ class Connector {
     for (U* u : {&p.key.a, &p.key.b, &p.key.index}) f(*u, *keys++);
   }
 
-  struct LampPoint {
-    SurfacePoint<F> on;
+  struct ChosenPoint {
+    LampPoint<F> on;
     V weight;         ///< radiance over pdf_a
     F inverse_pdf_a;  ///< m^2
     I first_surface, last_surface;
   };
 
   template <bool one>
-  LampPoint lamp_point_of(const LampRow<F, one>& lamp, const Point2<F>& uv) const {
-    const F area = area_left_out(lamp);
-    return {lamp_point(lamp, uv.u, uv.v), lamp.vector(LampColumn::weight_r) * area,
+  ChosenPoint chosen_point(const LampRow<F, one>& lamp, const Point2<F>& uv) const {
+    const F area = lamp[LampColumn::area_factor];
+    return {lamp_point<features.one_parallelogram>(scene_, lamp, uv.u, uv.v), lamp.vector(LampColumn::weight_r) * area,
             lamp[LampColumn::inverse_choice] * area, as_int(lamp[LampColumn::first_surface]),
             as_int(lamp[LampColumn::last_surface])};
   }
 
-  LampPoint choose_point(const ConnectionPoint<F>& p, int rays, int k) const {
+  ChosenPoint choose_point(const ConnectionPoint<F>& p, int rays, int k) const {
     const Sampler sampler = setting<features, &Settings::sampler>(scene_);
     const auto place = LatticePlace<F>::of(p.depth + I(1));
     const Point2<F> uv =
         random_pair<F>(sampler, p.key, place, static_cast<std::uint32_t>(HitDimension::lamp_u), rays, k);
     if (features.one_parallelogram || scene_.lamps.rows() == 1)
-      return lamp_point_of(LampRow<F, true>{scene_, I(0)}, uv);
+      return chosen_point(LampRow<F, true>{scene_.lamps, I(0)}, uv);
     const F which = random_number<F>(sampler, p.key, place, static_cast<std::uint32_t>(HitDimension::lamp), rays, k);
-    return lamp_point_of(LampRow<F, false>{scene_, choose_lamp(scene_, which)}, uv);
+    return chosen_point(LampRow<F, false>{scene_.lamps, choose_lamp(scene_, which)}, uv);
   }
 
   /// One of the chains between two points, in proportion to the light it brings if nothing hides it.
@@ -144,7 +145,7 @@ class Connector {
     const int rays = setting<features, &Settings::shadow_rays>(scene_);
     V found = V::all(F(0.0f));
     for (int k = 0; k < rays; ++k) {
-      const LampPoint lamp = choose_point(p, rays, k);
+      const ChosenPoint lamp = choose_point(p, rays, k);
       Choice choice{};
       choice.left =
           random_number<F>(setting<features, &Settings::sampler>(scene_), p.key, LatticePlace<F>::of(p.depth + I(1)),
@@ -167,11 +168,11 @@ class Connector {
   /// Where no limit of depth forbids so many surfaces and a lamp.
   M has_depth(const ConnectionPoint<F>& p, int surfaces) const {
     const int limit = setting<features, &Settings::max_depth>(scene_);
-    return limit > 0 ? less(p.depth, I(limit - 1 - surfaces)) : M(F(0.0f) < F(1.0f));
+    return limit > 0 ? less(p.depth, I(limit - 1 - surfaces)) : all_lanes<F>();
   }
 
   /// The chains from x to the point of the lamp over one sphere.
-  void offer_chains(const ConnectionPoint<F>& p, const LampPoint& lamp, const ChainSphere& sphere, const M& active,
+  void offer_chains(const ConnectionPoint<F>& p, const ChosenPoint& lamp, const ChainSphere& sphere, const M& active,
                     Choice& choice) const {
     const V center = broadcast<F>(sphere.center);
     const V x_way = p.at.point - center, y_way = lamp.on.point - center;
@@ -207,7 +208,7 @@ class Connector {
   }
 
   /// Light from the point of the lamp by the chain chosen, times the BRDF of x over its reflectance.
-  V arriving(const ConnectionPoint<F>& p, const LampPoint& lamp, const Choice& choice) const {
+  V arriving(const ConnectionPoint<F>& p, const ChosenPoint& lamp, const Choice& choice) const {
     M lit = choice.sum > F(0.0f);
     if (!any(lit)) return V::all(F(0.0f));
     lit = lit & !occluded<F, features, true>(scene_, {p.at.point, choice.from_x, p.at.surface}, choice.x_length,

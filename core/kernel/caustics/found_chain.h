@@ -67,8 +67,8 @@ F chance_share(const CompiledScene& scene, const Surfaces<F, features>& surfaces
     const Mask<F> glass = equal(as_int(surfaces.value(Column::kind, sphere)), Int<F>(lobe_kind<SmoothGlassLobe>));
     chosen = select(glass, select(refracted, passed * passed, interface.reflected), chosen);
   }
-  const LampRow<F, false> piece{scene, row};
-  const F chance = chain.pdf_w * chosen * (piece[LampColumn::inverse_choice] * area_left_out(piece));
+  const LampRow<F, false> piece{scene.lamps, row};
+  const F chance = chain.pdf_w * chosen * (piece[LampColumn::inverse_choice] * piece[LampColumn::area_factor]);
   const F connections =
       F(static_cast<float>(setting<features, &Settings::shadow_rays>(scene))) * tube * reciprocal(lamp.cos_o);
   const F share = chance * reciprocal(chance + connections);

@@ -15,7 +15,7 @@ struct Features {
   bool small_table = false;        ///< no more surfaces than lookup_small can hold
   bool one_parallelogram = false;  ///< the only lamp is a parallelogram, sampled by area
   LobeSet lobes = lobes_up_to(LobeUse::seldom);
-  bool caustics = true;      ///< light paths, connections over spheres, and `caustic_settings`
+  bool caustics = true;      ///< light paths, connections over spheres, small lamps in view, and `caustic_settings`
   bool rare_shapes = true;   ///< triangles, glass solids, spheres around the camera, lamps that reach out of the room,
                              ///< a cutaway
   bool glow = true;          ///< surfaces with emission that are no lamps
@@ -65,8 +65,9 @@ void with_features(const CompiledScene& scene, Function f) {
       std::any_of(scene.solids.begin(), scene.solids.end(), [](const Solid& x) { return x.glass; });
   const bool rare_shapes =
       !scene.triangles.empty() || !scene.shells.empty() || scene.room_hides_lamps || glass_solid || scene.cutaway;
-  const bool one = scene.lamps.rows() == 1 && scene.has_lamp_shape[static_cast<std::size_t>(LampShape::parallelogram)];
-  const bool caustics = scene.light_paths > 0 || !scene.chain_spheres.empty() || !has_defaults(s, caustic_settings);
+  const bool one = scene.lamps.rows() == 1 && scene.has_lamp<ParallelogramLamp>();
+  const bool caustics = scene.light_paths > 0 || !scene.chain_spheres.empty() || !scene.lamp_images.empty() ||
+                        !has_defaults(s, caustic_settings);
   const bool usual =
       !rare_shapes && one && !scene.has_glow && has_defaults(s, usual_settings) && scene.surfaces.rows() <= small_table;
   const auto lacks = [&](LobeSet lobes) { return (scene.lobes & lobes) == 0; };

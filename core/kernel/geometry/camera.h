@@ -39,6 +39,7 @@ class PathSource {
  public:
   virtual ~PathSource() = default;
   virtual Vec3<F> origin() const = 0;        ///< of all first rays, compiled space
+  virtual bool from_camera() const = 0;      ///< the paths make a picture
   virtual bool exhausted() const = 0;        ///< every path has been put into a queue
   virtual void refill(PathQueue<F>& q) = 0;  ///< moves what is left in the queue to its front and fills the rest
 };
@@ -91,6 +92,7 @@ class CameraRays final : public PathSource<F> {
         sample_(static_cast<std::int32_t>(block_.first_sample)) {}
 
   Vec3<F> origin() const override { return broadcast<F>(scene_.camera.eye); }
+  bool from_camera() const override { return true; }
   bool exhausted() const override { return next_path_ >= block_.paths(); }
 
   void refill(PathQueue<F>& q) override {
@@ -155,6 +157,7 @@ class GivenRay final : public PathSource<F> {
     auto component = [&](std::size_t k) { return F(static_cast<float>(path_.origin[k] - scene_.origin[k])); };
     return {component(0), component(1), component(2)};
   }
+  bool from_camera() const override { return false; }
   bool exhausted() const override { return used_; }
 
   void refill(PathQueue<F>& q) override {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "kernel/entry/features.h"
-#include "kernel/lamps/light.h"
+#include "math/vec.h"
 
 /// Rays against the compiled scene. Nothing here uses an epsilon; a ray never hits again what it leaves, because
 ///  - of a pair of room planes it takes the one it moves towards;
@@ -105,7 +105,7 @@ template <class F>
 Mask<F> starts_inside(const CompiledScene& scene, const Solid& solid, const Ray<F>& ray, const SolidSpan<F>& span,
                       Mask<F>& starts_on) {
   starts_on = !(less(ray.from, Int<F>(solid.first_surface)) | less(Int<F>(solid.last_surface), ray.from));
-  Mask<F> inward = F(1.0f) < F(0.0f);
+  Mask<F> inward = no_lanes<F>();
   for (int i = solid.first; i < solid.last; ++i) {
     const SolidPlane& plane = scene.solid_planes[static_cast<std::size_t>(i)];
     const F approach = dot(broadcast<F>(plane.nx, plane.ny, plane.nz), ray.direction);
@@ -210,7 +210,7 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
 template <class F, Features features, bool to_any = false>
 Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<F> first, Int<F> last) {
   using namespace detail;
-  Mask<F> hidden = F(1.0f) < F(0.0f);
+  Mask<F> hidden = no_lanes<F>();
   // A single piece of a lamp need not be tested at all, which spares the others the question whose they are.
   const bool one = !to_any && (features.one_parallelogram || scene.lamps.rows() == 1);
   const auto only = one ? std::bit_cast<std::int32_t>(scene.lamps[LampColumn::first_surface][0]) : -1;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "kernel/geometry/intersect.h"
-#include "kernel/lamps/light.h"
+#include "kernel/lamps/sample_lamp.h"
+#include "lamp/sphere_cone.h"
+#include "math/sampler.h"
 
 /// Where light paths begin: on a lamp, towards the sphere around a mirror or glass.
 namespace glimt {
@@ -29,7 +31,7 @@ Int<F> choose_aim(const CompiledScene& scene, F u) {
 /// sphere.
 template <class F>
 Mask<F> buried(const CompiledScene& scene, const Vec3<F>& point, const Int<F>& own_first, const Int<F>& own_last) {
-  Mask<F> inside = F(1.0f) < F(0.0f);
+  Mask<F> inside = no_lanes<F>();
   const auto other = [&](std::int32_t surface) {
     return less(Int<F>(surface), own_first) | less(own_last, Int<F>(surface));
   };
@@ -58,8 +60,8 @@ Mask<F> buried(const CompiledScene& scene, const Vec3<F>& point, const Int<F>& o
 template <class F, Features features>
 Emission<F> emit(const CompiledScene& scene, const Int<F>& row, const Point2<F>& on_lamp, const Point2<F>& to_target) {
   const auto value = [&](AimColumn c) { return lookup_in<F, few_aims<features>>(scene.aims[c], row); };
-  const LampRow<F, features.one_parallelogram> lamp{scene, as_int(value(AimColumn::lamp))};
-  const SurfacePoint<F> from = lamp_point(lamp, on_lamp.u, on_lamp.v);
+  const LampRow<F, features.one_parallelogram> lamp{scene.lamps, as_int(value(AimColumn::lamp))};
+  const LampPoint<F> from = lamp_point<features.one_parallelogram>(scene, lamp, on_lamp.u, on_lamp.v);
   const Vec3<F> center{value(AimColumn::center_x), value(AimColumn::center_y), value(AimColumn::center_z)};
   const SphereCone<F> cone = cone_of_sphere(center - from.point, value(AimColumn::radius));
   const Vec3<F> direction = select(cone.outside, cone.sample(to_target.u, to_target.v).direction,

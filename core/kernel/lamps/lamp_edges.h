@@ -7,6 +7,7 @@
 
 #include "kernel/geometry/camera.h"
 #include "kernel/geometry/cutaway.h"
+#include "kernel/lamps/lamp_images.h"
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
@@ -61,12 +62,13 @@ class LampEdges {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sums.add(place[i], r[i], g[i], b[i]);
   }
 
-  /// Of a lamp that the ray sees first.
+  /// Of a lamp that the ray sees first, outside the places that are looked at apart.
   V emission(const V& direction) const {
     const Ray<F> ray{broadcast<F>(scene_.camera.eye), direction, I(-1)};
     const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, ray, all_lanes<F>());
     const Interaction<F> at = surfaces_.meet(ray, hit);
-    const M shines = (hit.t < F(std::numeric_limits<float>::infinity())) & surfaces_.is_lamp(at) & at.front;
+    M shines = (hit.t < F(std::numeric_limits<float>::infinity())) & surfaces_.is_lamp(at) & at.front;
+    if (!scene_.lamp_images.empty()) shines = shines & !in_lamp_image(scene_, direction);
     return select(shines, surfaces_.vector(Column::emission_r, at), V::all(F(0.0f)));
   }
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "kernel/entry/features.h"
+#include "kernel/lamps/sample_lamp.h"
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/hit_numbers.h"
 

@@ -47,6 +47,7 @@ class PathTracer {
     s.chain.connects = no_lanes<F>();
     s.chain.found = {I(chain_none), F(0.0f), F(0.0f)};
     if (connects()) connector_.begin(sums_.size());
+    looks_apart_ = source.from_camera() && !scene_.lamp_images.empty();
     const V origin = source.origin();
     s.ray = {origin, {F(0.0f), F(0.0f), F(1.0f)}, I(-1)};
     for (;;) {
@@ -82,7 +83,8 @@ class PathTracer {
     s.throughput = select(idle, V::all(F(1.0f)), s.throughput);
     s.radiance = select(idle, V::all(F(0.0f)), s.radiance);
     if (surfaces_.has_glass()) s.ior2 = select(idle, F(1.0f), s.ior2);
-    const F share(set<&Settings::caustics>() == Caustics::only ? 0.0f : 1.0f);
+    F share(set<&Settings::caustics>() == Caustics::only ? 0.0f : 1.0f);
+    if (looks_apart_) share = select(in_lamp_image(scene_, s.ray.direction), F(-1.0f), share);
     s.lamps.next = select(idle, share, s.lamps.next);
     if (features.caustics) s.lamps.specular = select(idle, share, s.lamps.specular);
     if (lamps_.shares()) s.lamps.pdf_w = select(idle, F(0.0f), s.lamps.pdf_w);
@@ -109,6 +111,7 @@ class PathTracer {
     const M matt = surfaces_.is_matt(at) & !missed;
     const M glossy = surfaces_.has_glossy() ? surfaces_.is_glossy(at) & !missed : no_lanes<F>();
     if (sharing_) begin_tails(s, at, matt);
+    if (looks_apart_) s.lamps.specular = select(matt | glossy, abs(s.lamps.specular), s.lamps.specular);
 
     // Light from the lamps.
     s.throughput = s.throughput * surfaces_.colour(at);
@@ -289,6 +292,7 @@ class PathTracer {
   std::uint32_t hit_block_;  ///< dimensions of a hit
   float over_roulette_below_;
   bool connects_;
+  bool looks_apart_ = false;  ///< small lamps that the camera sees are counted by LampImages
   Connector<F, features> connector_;
   Results<F> done_;
 };
@@ -311,6 +315,7 @@ void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb)
     PathTracer<F, features()>(scene, sums, scene.light_paths > 0, sharing ? &*sharing : nullptr).run(rays);
     if (sharing) sharing->share(squares, sums);
     if (!scene.lamp_edges.empty()) LampEdges<F, features()>(scene, squares).refine(sums);
+    if (!scene.lamp_images.empty()) LampImages<F, features()>(scene, squares).add(sums);
   });
   for (int sample = 0; sample < block.samples; ++sample)
     for (int y = block.y0; y < block.y0 + block.height; ++y)

@@ -23,7 +23,8 @@ struct PathPlace {
 template <class F>
 struct LampShares {
   F next;      ///< of a lamp that is hit next, before MIS
-  F specular;  ///< the same once the path has left a mirror or glass
+  F specular;  ///< the same once the path has left a mirror or glass; below 0 where only lamps count that are met after
+               ///< a matt or glossy surface
   F pdf_w;     ///< with which the last surface chose the direction, where light sampling shares the lamp; else 0
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compile/compiled_scene.h"
+#include "lamp/list.h"
 #include "material/lobes.h"
 #include "scene/file/scene_file.h"
 #include "scene_parts.h"
@@ -105,13 +106,14 @@ TEST(Compile, CeilingMayBeSeveralPolygons) {
 // The whole ceiling of 2 m x 2 m is one parallelogram; its power alone is in the table.
 TEST(Compile, CeilingMayBeALamp) {
   Scene scene = lit_box();
+  scene.render.light_sampling = LightSampling::area;
   scene.polygons.pop_back();
   scene.polygons[1].material = "lamp";
   const CompiledScene c = compile(scene);
   EXPECT_EQ(c.room.size(), 3u);
   ASSERT_EQ(c.lamps.rows(), 1);
   EXPECT_FLOAT_EQ(c.lamps[LampColumn::weight_g][0], 5 * 4);
-  EXPECT_EQ(c.lamps[LampColumn::normal_y][0], -1);
+  EXPECT_EQ(c.lamps[lamp_column(FlatColumn::normal_y)][0], -1);
   std::ranges::reverse(scene.polygons[1].vertices);
   const CompiledScene turned = compile(scene);
   EXPECT_EQ(turned.room.size(), 3u);
@@ -319,17 +321,35 @@ TEST(Compile, AliasTableHoldsTheLampsPowers) {
       return dvec3{at(0), at(1), at(2)};
     };
     const dvec3 weight = vec(LampColumn::weight_r);
-    const auto shape = static_cast<LampShape>(std::bit_cast<std::int32_t>(c.lamps[LampColumn::shape][i]));
-    const double area = shape == LampShape::sphere ? 4 * std::numbers::pi * 0.01
-                                                   : length(cross(vec(LampColumn::e1_x), vec(LampColumn::e2_x))) *
-                                                         (shape == LampShape::triangle ? 0.5 : 1.0);
+    const auto shape = std::bit_cast<std::int32_t>(c.lamps[LampColumn::shape][i]);
+    const bool sphere = shape == lamp_shape_number<SphereLamp>;
+    const double area =
+        sphere ? 4 * std::numbers::pi * 0.01
+               : length(cross(vec(lamp_column(FlatColumn::edge_1_x)), vec(lamp_column(FlatColumn::edge_2_x)))) *
+                     (shape == lamp_shape_number<TriangleLamp> ? 0.5 : 1.0);
     const double sum = weight.g > 0 ? 15 : 100;  // of the lamp's radiance over the channels
     power[i] = area * sum;
     total += power[i];
-    const double weighed = shape == LampShape::sphere ? 1 : area;
+    const double weighed = sphere ? 1 : area;
     EXPECT_NEAR((weight.r + weight.g + weight.b) * chosen[i], sum * weighed, 1e-5 * sum * weighed) << i;
   }
   for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(chosen[i], power[i] / total, 1e-6) << i;
+}
+
+TEST(Compile, TellsWhichLightIsLeftToChance) {
+  Scene scene = lit_box();
+  const std::string chance = "by chance alone";
+  EXPECT_FALSE(mentions(compile(scene).compiled_in, chance));
+  scene.render.light_sampling = LightSampling::none;
+  EXPECT_TRUE(mentions(compile(scene).compiled_in, chance + ": light straight from lamps"));
+  scene.render = {};
+  scene.spheres = {{"ball", "glass", {0, 0, 0}, 0.2}};
+  EXPECT_TRUE(mentions(compile(scene).compiled_in, "but for those over one sphere"));
+  EXPECT_FALSE(mentions(compile(scene).compiled_in, "caustics on matt surfaces"));
+  scene.render.light_paths = 0;
+  EXPECT_TRUE(mentions(compile(scene).compiled_in, chance + ": caustics on matt surfaces"));
+  scene.render.caustics = Caustics::off;
+  EXPECT_FALSE(mentions(compile(scene).compiled_in, chance));
 }
 
 TEST(Compile, WarnsOfConstantRouletteWhereItsVarianceIsInfinite) {

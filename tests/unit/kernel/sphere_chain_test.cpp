@@ -467,7 +467,7 @@ TEST(SphereChain, LanesFindWhatTheScalarCodeFinds) {
     std::array<SphereChain<F>, 3> found{};
     if (index == mirror) {
       found[0] = reflected_chain(plane, x, y);
-      found[1].exists = found[2].exists = F(1.0f) < F(0.0f);
+      found[1].exists = found[2].exists = no_lanes<F>();
     } else {
       found = refracted_chains(plane, x, y, F(static_cast<float>(index)));
     }

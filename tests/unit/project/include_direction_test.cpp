@@ -1,4 +1,4 @@
-// Includes point one way: math <- scene <- material <- compile <- kernel <- film <- render <- app. Only
+// Includes point one way: math <- scene <- material <- lamp <- compile <- kernel <- film <- render <- app. Only
 // core/math/lanes.h names xsimd. Core knows no window, no OpenGL and no command line. The maps in core/README.md and
 // app/README.md name every folder.
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 7> core_layers = {"math",   "scene", "material", "compile",
-                                                         "kernel", "film",  "render"};
+constexpr std::array<std::string_view, 8> core_layers = {"math",    "scene",  "material", "lamp",
+                                                         "compile", "kernel", "film",     "render"};
 
 const fs::path root = fs::path(GLIMT_TESTS_DIR).parent_path();
 
