@@ -46,6 +46,7 @@ void write_png(const std::filesystem::path& file, const Image& image, const Disp
   naming(file, [&] {
     Metadata all = metadata;
     all.merge(display_texts(display));
+    check_png_size(image.width, image.height);  // before the pixels are converted
     replace_file(file, encode_png(image.width, image.height, to_srgb8(image, display), all));
   });
 }

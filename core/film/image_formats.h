@@ -15,6 +15,9 @@ inline constexpr std::string_view metadata_prefix = "glimt:";
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 inline constexpr std::string_view exr_signature = "\x76\x2f\x31\x01";
 
+/// Throws std::runtime_error where the image is too large for a PNG.
+void check_png_size(int width, int height);
+
 /// `rgb` is 3 * width * height bytes.
 std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb, const Metadata& metadata);
 Metadata decode_png_metadata(std::string_view bytes);

@@ -54,9 +54,13 @@ void read_text(std::string_view data, Metadata& metadata) {
 
 }  // namespace
 
-std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb, const Metadata& metadata) {
+void check_png_size(int width, int height) {
   if ((std::int64_t{3} * width + 1) * height > std::numeric_limits<int>::max() / 2)
     throw std::runtime_error("the image is too large for a PNG; .exr and .pfm are not limited");
+}
+
+std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb, const Metadata& metadata) {
+  check_png_size(width, height);
   std::string bytes;
   const auto append = [](void* context, void* data, int size) {
     static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));

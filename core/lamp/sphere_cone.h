@@ -33,7 +33,7 @@ struct SphereCone {
     const F cos = F(1.0f) - one_minus_cos;
     const F sin2 = one_minus_cos * (F(1.0f) + cos);
     const F sin = sqrt(sin2);
-    const Frame<F> frame(axis);
+    const LocalFrame<F> frame(axis);
     const SinCos<F> turn = sincos_turns(v);
     const Vec3<F> direction = frame.to_world({sin * turn.cos, sin * turn.sin, cos});
     const F half_chord = sqrt(radius * radius - distance * distance * sin2);

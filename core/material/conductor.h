@@ -59,7 +59,7 @@ struct RoughConductorLobe {
 
   template <class F, class Row>
   static ScatterSample<F> sample(const Row& row, const Vec3<F>& wo_world, F u, F v, F) {
-    const Frame<F> frame(row.at.normal);
+    const LocalFrame<F> frame(row.at.normal);
     const Vec3<F> wo = frame.to_local(wo_world);
     const Ggx<F> ggx{row(alpha)};
     const Vec3<F> m = ggx.visible_normal(wo, u, v);
@@ -76,7 +76,7 @@ struct RoughConductorLobe {
 
   template <class F, class Row>
   static Vec3<F> evaluate(const Row& row, const Vec3<F>& wi_world, const Vec3<F>& wo_world, F cos_i, F cos_o) {
-    const Frame<F> frame(row.at.normal);
+    const LocalFrame<F> frame(row.at.normal);
     const Ggx<F> ggx{row(alpha)};
     const Vec3<F> m = normalize(frame.to_local(wi_world + wo_world));
     const F f = F(std::numbers::pi_v<float>) * ggx.density(m) * ggx.visibility(cos_i, cos_o);
@@ -88,7 +88,7 @@ struct RoughConductorLobe {
   template <class F, class Row>
   static F pdf_w(const Row& row, const Vec3<F>& wi_world, const Vec3<F>& wo_world, F cos_i, F cos_o) {
     const Ggx<F> ggx{row(alpha)};
-    const Vec3<F> m = normalize(Frame<F>(row.at.normal).to_local(wi_world + wo_world));
+    const Vec3<F> m = normalize(LocalFrame<F>(row.at.normal).to_local(wi_world + wo_world));
     return select(cos_i > F(0.0f), F(0.5f) * ggx.visible_density(m, max(cos_o, F(1e-7f))), F(0.0f));
   }
 };

@@ -58,7 +58,7 @@ struct RoughGlassLobe {
   template <class F, class Row>
   static ScatterSample<F> sample(const Row& row, const Vec3<F>& wo_world, F u, F v, F lobe) {
     const GlassSides<F> sides(row, row(schlick));
-    const Frame<F> frame(row.at.normal);
+    const LocalFrame<F> frame(row.at.normal);
     const Vec3<F> wo = frame.to_local(wo_world);
     const Ggx<F> ggx{row(alpha)};
     const Vec3<F> m = ggx.visible_normal(wo, u, v);
@@ -121,7 +121,7 @@ struct RoughGlassLobe {
 
     template <class Row>
     Half(const Row& row, const Vec3<F>& wi_world, const Vec3<F>& wo_world, F cos_i) : sides(row, row(schlick)) {
-      const Frame<F> frame(row.at.normal);
+      const LocalFrame<F> frame(row.at.normal);
       const Vec3<F> wi = frame.to_local(wi_world), wo = frame.to_local(wo_world);
       reflects = cos_i > F(0.0f);
       const Vec3<F> sum = fma(wi, select(reflects, F(1.0f), sides.eta), wo);

@@ -72,10 +72,10 @@ Vec3<F> cosine_hemisphere(const Vec3<F>& n, F u, F v) {
 /// Right-handed axes about a unit normal, which is their z (Duff et al., "Building an orthonormal basis, revisited",
 /// JCGT 6(1), 2017).
 template <class F>
-struct Frame {
+struct LocalFrame {
   Vec3<F> x, y, z;
 
-  explicit Frame(const Vec3<F>& normal) : z(normal) {
+  explicit LocalFrame(const Vec3<F>& normal) : z(normal) {
     const F sign = select(z.z < F(0.0f), F(-1.0f), F(1.0f));
     const F k = F(-1.0f) * reciprocal(sign + z.z);
     const F xy = z.x * z.y * k;

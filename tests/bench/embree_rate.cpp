@@ -152,10 +152,12 @@ int main(int argc, char** argv) try {
   // As the kernel chooses: the rare shapes cost registers, so it leaves them out where the scene has none.
   const bool rare = !compiled.triangles.empty() || !compiled.shells.empty() || compiled.room_hides_lamps ||
                     std::ranges::any_of(compiled.solids, &Solid::glass) || compiled.lamps.rows() != 1;
-  constexpr Features all{
-      .small_table = false, .one_parallelogram = false, .oren_nayar = true, .caustics = true, .rare = true};
-  constexpr Features few{
-      .small_table = false, .one_parallelogram = true, .oren_nayar = false, .caustics = false, .rare = false};
+  constexpr Features all{}, few{.one_parallelogram = true,
+                                .lobes = lobes_up_to(LobeUse::always),
+                                .caustics = false,
+                                .rare_shapes = false,
+                                .glow = false,
+                                .any_settings = false};
   std::vector<Contender> contenders;
   for (const bool shadow : {false, true}) {
     contenders.push_back(

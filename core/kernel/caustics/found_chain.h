@@ -2,6 +2,7 @@
 
 #include "kernel/caustics/sphere_chain.h"
 #include "kernel/entry/features.h"
+#include "kernel/lamps/sample_lamp.h"
 #include "kernel/scattering/surfaces.h"
 
 /// Chains over a sphere that a path from the camera finds by chance, which connections find too (connect.h).

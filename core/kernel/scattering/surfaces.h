@@ -2,6 +2,8 @@
 
 #include "kernel/geometry/intersect.h"
 #include "material/lobes.h"
+#include "math/sampler.h"
+#include "math/warp.h"
 
 /// Surfaces where paths meet them, for paths from the camera and from lamps alike. No estimator knows a material: each
 /// asks a surface for its colour, and for sample, evaluate and pdf_w of what is left once the colour is taken out.

@@ -187,8 +187,7 @@ struct ShadowTest {
   std::int32_t first, last;  ///< the lamp's own surfaces
 };
 
-constexpr Features any_scene{
-    .small_table = false, .one_parallelogram = false, .oren_nayar = true, .caustics = true, .rare = true};
+constexpr Features any_scene{};
 
 /// Rays side by side, filled up with the last one.
 template <class F>
