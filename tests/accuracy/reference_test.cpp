@@ -50,7 +50,7 @@ Series as_mitsuba(Scene scene, int seeds, int samples) {
   for (int seed = 1; seed <= seeds; ++seed) {
     scene.render.seed = 1000 * seed + 8;
     CompiledScene compiled = compile(scene);
-    compiled.lamp_edges.clear();
+    compiled.lamp_edges.clear(), compiled.lamp_images.clear();
     series.blocks.push_back(block_means(render(compiled, samples).mean(), block_size));
   }
   return series;

@@ -97,6 +97,7 @@ TEST_F(ImageFile, PngIsTheDisplayedPicture) {
 TEST_F(ImageFile, PngCarriesTheMetadataAndTheDisplay) {
   write_image(folder / "a.png", film, {-0.25}, some_metadata);
   Metadata expected = some_metadata;
+  expected["dither"] = "on";
   expected["exposure"] = "-0.25";
   expected["tone"] = "linear";
   expected["view"] = "image";

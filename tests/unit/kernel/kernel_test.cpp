@@ -149,7 +149,7 @@ TEST(Kernel, TraceRayReplaysACameraPath) {
     scene.render.light_paths = 0;  // which do not know of rays that are not the camera's
     scene.render.path_sharing = PathSharing::off;
     CompiledScene compiled = compile(scene);
-    compiled.lamp_edges.clear();
+    compiled.lamp_edges.clear(), compiled.lamp_images.clear();
     const auto rgb = trace_all(compiled, 2, Lanes::native);
     for (int path = 0; path < 2 * compiled.width * compiled.height; path += 7) {
       const int pixels = compiled.width * compiled.height, pixel = path % pixels, sample = path / pixels;
