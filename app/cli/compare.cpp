@@ -29,12 +29,13 @@ Comparison compare_files(const CompareOptions& options) {
 
 int run_compare(const CompareOptions& options) {
   const Comparison c = compare_files(options);
-  const std::array<std::pair<const char*, double>, 6> measures{{{"mean", c.mean},
+  const std::array<std::pair<const char*, double>, 7> measures{{{"mean", c.mean},
                                                                 {"mean_reference", c.mean_reference},
                                                                 {"bias", c.bias},
                                                                 {"rmse", c.rmse},
                                                                 {"relmse", c.relmse},
-                                                                {"relmse999", c.relmse999}}};
+                                                                {"relmse999", c.relmse999},
+                                                                {"relmse_scaled", c.relmse_scaled}}};
   nlohmann::ordered_json json;
   for (const auto& [name, value] : measures) {
     json[name] = value;

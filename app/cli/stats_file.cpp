@@ -41,7 +41,10 @@ std::string stats_json(const Scene& scene, const Film& film, const Execution& ex
   json["seconds"] = seconds;
   json["paths_per_second"] = static_cast<double>(paths) / seconds;
   json["mean"] = mean(film.mean());
-  json["relmse_estimate"] = relmse_estimate(film);
+  const ErrorEstimate error = estimate_error(film);
+  json["relmse_estimate"] = error.relmse;
+  json["relmse_scaled"] = error.relmse_scaled;
+  json["relmse_scaled_interval"] = {error.low, error.high};
   json["threads"] = execution.threads > 0 ? execution.threads : hardware_threads();
   json["lanes"] = execution.lanes == Lanes::scalar ? 1 : native_lane_count();
   json["invalid"] = film.invalid();

@@ -1,5 +1,7 @@
 #include "film/image_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <new>
 
 #include "film/file_bytes.h"
@@ -12,11 +14,12 @@ namespace {
 enum class Format { png, exr, pfm };
 
 Format format_of(const std::filesystem::path& file) {
-  const std::filesystem::path ending = file.extension();
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".png") return Format::png;
   if (ending == ".exr") return Format::exr;
   if (ending == ".pfm") return Format::pfm;
-  throw ImageFileError(file.string() + ": unknown ending \"" + ending.string() +
+  throw ImageFileError(file.string() + ": unknown ending \"" + ending +
                        "\"; allowed are .png (displayed picture), .exr and .pfm (linear radiance)");
 }
 

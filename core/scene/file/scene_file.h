@@ -16,9 +16,9 @@ struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a TOML scene. Each override is "PATH=VALUE", VALUE in TOML ("material.clay.roughness=0.6",
-/// "camera.eye=[0,0,5]", "sphere.glass.radius=2" by name or "sphere.3.radius=2" by place from 0); bare words count as
-/// strings. Throws SceneError.
+/// Reads a TOML scene; "-" is standard input. Each override is "PATH=VALUE", VALUE in TOML
+/// ("material.clay.roughness=0.6", "camera.eye=[0,0,5]", "sphere.glass.radius=2" by name or "sphere.3.radius=2" by
+/// place from 0); bare words count as strings. Throws SceneError.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// The same from text; `file_name` is for messages.

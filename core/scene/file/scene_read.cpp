@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -164,6 +166,26 @@ Scene read_tree(const toml::table& root) {
   throw SceneError(file.string() + ": cannot be read: " + reason.message());
 }
 
+/// Whole; refused where it is no text, or has no end.
+std::string text_of(std::istream& stream, const std::string& name) {
+  constexpr std::size_t most = std::size_t{1} << 30;
+  std::string text;
+  std::array<char, 1 << 16> buffer;
+  while (stream.read(buffer.data(), buffer.size()), stream.gcount() > 0) {
+    text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.find('\0', text.size() - static_cast<std::size_t>(stream.gcount())) != std::string::npos)
+      throw SceneError(name + ": holds a zero byte, so it is no text; allowed is TOML (https://toml.io)");
+    if (text.size() > most) throw SceneError(name + ": has no end within 1 GiB; allowed are shorter scenes");
+  }
+  return text;
+}
+
+/// Kept, because it can be read only once.
+const std::string& standard_input() {
+  static const std::string text = text_of(std::cin, "standard input");
+  return text;
+}
+
 /// Says that the scene breaks a rule. At a place of the file where an override of something else is the reason, names
 /// that override.
 [[noreturn]] void fail_rule(const Problem& problem, const toml::table& root, std::string_view text,
@@ -196,10 +218,11 @@ Scene parse_scene(std::string_view text, std::string_view file_name, std::span<c
 
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
   std::error_code error;
+  if (file == "-") return parse_scene(standard_input(), "standard input", overrides);
   if (std::filesystem::is_directory(file, error)) cannot_read(file, std::make_error_code(std::errc::is_a_directory));
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+  const std::string text = text_of(stream, file.string());
   if (!stream.is_open() || stream.bad()) cannot_read(file, {errno ? errno : EIO, std::generic_category()});
   return parse_scene(text, file.string(), overrides);
 }

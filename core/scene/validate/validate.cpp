@@ -112,6 +112,20 @@ void check_objects(const Scene& scene, std::string_view kind, const std::vector<
   }
 }
 
+/// Squares of squares of lengths must fit into a float.
+void check_extent(const Scene& scene, Problems& problems) {
+  constexpr double least = 1e-9;
+  double extent = 0;
+  const glm::dvec3 eye = scene.camera.eye;
+  const auto include = [&](const glm::dvec3& p) { extent = std::max(extent, length(p - eye)); };
+  for (const Sphere& s : scene.spheres) extent = std::max(extent, length(s.center - eye) + s.radius);
+  for (const Polygon& p : scene.polygons) std::ranges::for_each(p.vertices, include);
+  for (const Mesh& m : scene.meshes) std::ranges::for_each(m.vertices, include);
+  if (problems.empty() && extent < least)
+    problems.push_back({"", "the scene reaches " + number_text(extent) + " m from the camera; allowed is " +
+                                number_text(least) + " m or more: write its lengths in a smaller unit"});
+}
+
 }  // namespace
 
 std::vector<Problem> validate(const Scene& scene) {
@@ -130,6 +144,7 @@ std::vector<Problem> validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], i, problems);
   if (scene.spheres.empty() && scene.polygons.empty() && scene.meshes.empty())
     problems.push_back({"", "the scene holds nothing; it takes at least one [[sphere]], [[polygon]] or [[mesh]]"});
+  check_extent(scene, problems);
   if (problems.empty()) check_glass(scene, problems);
   return problems;
 }

@@ -160,7 +160,7 @@ TEST_F(Compare, PrintsTheMeasures) {
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out,
             "mean            1.1666667\nmean_reference  1\nbias            0.16666667\nrmse            0.28867513\n"
-            "relmse          0.082508251\nrelmse999       0\n");
+            "relmse          0.082508251\nrelmse999       0\nrelmse_scaled   0.080593166\n");
 }
 
 TEST_F(Compare, PrintsJson) {
@@ -173,6 +173,7 @@ TEST_F(Compare, PrintsJson) {
   EXPECT_DOUBLE_EQ(json.at("rmse"), std::sqrt(0.25 / 3));
   EXPECT_DOUBLE_EQ(json.at("relmse"), 0.25 / 1.01 / 3);
   EXPECT_EQ(json.at("relmse999"), 0);
+  EXPECT_DOUBLE_EQ(json.at("relmse_scaled"), 0.25 / 1.034 / 3);
 }
 
 TEST_F(Compare, AnImageDoesNotDifferFromItself) {

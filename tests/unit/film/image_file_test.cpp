@@ -257,7 +257,7 @@ TEST_F(ImageFile, RefusesHugeExrWindows) {
 }
 
 TEST_F(ImageFile, WritableFilesPassWithoutATrace) {
-  for (const char* name : {"a.png", "a.exr", "a.pfm"}) EXPECT_EQ(write_error(folder / name), "nothing thrown");
+  for (const char* name : {"a.png", "a.exr", "a.pfm", "a.PNG", "a.Exr"}) EXPECT_EQ(write_error(folder / name), "nothing thrown");
   EXPECT_EQ(files_in_folder(), 0u);
   write("a.png", "old");
   EXPECT_EQ(write_error(folder / "a.png"), "nothing thrown");
@@ -265,7 +265,7 @@ TEST_F(ImageFile, WritableFilesPassWithoutATrace) {
 }
 
 TEST_F(ImageFile, RefusesWhatCannotBeWrittenAndSaysWhy) {
-  for (const char* name : {"a.jpg", "a", "a.PNG", "png"}) expect_has(write_error(folder / name), "allowed are .png");
+  for (const char* name : {"a.jpg", "a", "png"}) expect_has(write_error(folder / name), "allowed are .png");
   expect_has(write_error(folder / "none" / "a.png"), "does not exist");
   fs::create_directory(folder / "b.png");
   expect_has(write_error(folder / "b.png"), "is a folder");

@@ -29,6 +29,18 @@ TEST(Validate, NamesEveryProblem) {
                                  "sphere[1].material", "sphere[1].radius"}));
 }
 
+// A sphere seen from the distance of 4 radii: squares of squares of its lengths must fit into a float.
+TEST(Validate, LengthsMustNotVanish) {
+  const auto scene_of_size = [](double radius) {
+    Scene scene = scene_of({{"ball", "white", {0, 0, 0}, radius}});
+    scene.camera.eye = {0, 0, 4 * radius};
+    return scene;
+  };
+  EXPECT_EQ(paths(scene_of_size(1e-9)), Paths{});
+  EXPECT_EQ(paths(scene_of_size(1e-10)), Paths{""});
+  EXPECT_EQ(paths(scene_of_size(1e-25)), Paths{""});
+}
+
 template <class T>
 void expect_bounds_hold(std::span<const Field<T>> fields, Scene scene, T& (*select)(Scene&)) {
   const double outside[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
