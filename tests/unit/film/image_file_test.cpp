@@ -257,7 +257,8 @@ TEST_F(ImageFile, RefusesHugeExrWindows) {
 }
 
 TEST_F(ImageFile, WritableFilesPassWithoutATrace) {
-  for (const char* name : {"a.png", "a.exr", "a.pfm", "a.PNG", "a.Exr"}) EXPECT_EQ(write_error(folder / name), "nothing thrown");
+  for (const char* name : {"a.png", "a.exr", "a.pfm", "a.PNG", "a.Exr"})
+    EXPECT_EQ(write_error(folder / name), "nothing thrown");
   EXPECT_EQ(files_in_folder(), 0u);
   write("a.png", "old");
   EXPECT_EQ(write_error(folder / "a.png"), "nothing thrown");

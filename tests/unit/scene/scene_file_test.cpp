@@ -186,7 +186,8 @@ Scene random_scene(std::mt19937_64& random) {
     Material material{.name = "material " + std::to_string(random())};
     material.type = material_infos()[i % material_infos().size()].name;
     if (is_diffuse(material) || material.type == "mirror") material.set(Reflecting::reflectance, colour());
-    if (material.type == "conductor") material.set(Conductor::eta, colour()), material.set(Conductor::roughness, unit());
+    if (material.type == "conductor")
+      material.set(Conductor::eta, colour()), material.set(Conductor::roughness, unit());
     if (material.type == "oren-nayar") material.set(OrenNayar::roughness, unit());
     if (material.type == "lambertian") material.set(Matt::emission, colour() * 1e9);
     if (material.type == "glass") material.set(Glass::ior, 0.1 + unit());
