@@ -103,7 +103,8 @@ std::vector<BlockSums> blocks_of(const Film& film, int y0) {
     for (int x = 0; x < film.width(); ++x) {
       const auto a = film.half_sum(y * film.width() + x, 0), b = film.half_sum(y * film.width() + x, 1);
       BlockSums& sums = blocks[static_cast<std::size_t>(x / block)];
-      auto& squares = sums.squares[static_cast<std::size_t>((y - y0) / 2 * (block / 2) + x % block / 2)];
+      const int square = (y - y0) / 2 * (block / 2) + x % block / 2;
+      auto& squares = sums.squares[static_cast<std::size_t>(square)];
       for (std::size_t c = 0; c < 3; ++c) {
         const double difference = a[c] / n0 - b[c] / n1;
         sums.radiance[c] += a[c] + b[c];

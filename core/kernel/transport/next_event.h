@@ -43,7 +43,7 @@ class NextEvent {
       const LampSample<F> lamp = sample_lamp<F, features.one_parallelogram>(scene_, at.point, which, uv.u, uv.v);
       const F cos_i = dot(lamp.direction, at.normal);
       M faces = cos_i > F(0.0f);
-      if constexpr (surfaces_.may_be_glossy())
+      if constexpr (Surfaces<F, features>::may_be_glossy())
         if (scene_.has_glass) faces = faces | surfaces_.is_glossy(at);
       const M lit = asks & faces & (lamp.inverse_pdf > F(0.0f));
       if (!any(lit)) continue;
