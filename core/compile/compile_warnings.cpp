@@ -30,12 +30,12 @@ constexpr double as_good_as_touched = 0.01;
 
 const Material& material_of(const Lowering& l, int index) { return l.scene.materials[static_cast<std::size_t>(index)]; }
 
-void warn_of_near_lamps(Lowering& l, const std::vector<Piece>& pieces) {
+void warn_of_near_lamps(Lowering& l, const std::vector<NearPiece>& pieces) {
   const Settings& s = l.out.settings;
   if (s.light_sampling == LightSampling::none || s.mis == Mis::on) return;
   for (const LampPiece& lamp : l.lamps) {
     if (!is_sampled_by_area(lamp.shape)) continue;
-    const Piece* touched = nearly_touched(l, lamp, pieces, as_good_as_touched);
+    const NearPiece* touched = nearly_touched(l, lamp, pieces, as_good_as_touched);
     if (touched == nullptr) continue;
     l.out.warnings.push_back("a lamp that is sampled by area touches or nearly touches " + toml_string(touched->name) +
                              ": the noise in the corner between them will not go away; choose light_sampling = "
@@ -44,11 +44,11 @@ void warn_of_near_lamps(Lowering& l, const std::vector<Piece>& pieces) {
   }
 }
 
-void warn_of_tiny_lamps(Lowering& l, const std::vector<Piece>& pieces) {
+void warn_of_tiny_lamps(Lowering& l, const std::vector<NearPiece>& pieces) {
   if (l.out.settings.light_sampling != LightSampling::none || l.lamps.empty()) return;
   double lamps = 0, all = 0;
   for (const LampPiece& lamp : l.lamps) lamps += area_of(lamp.shape);
-  for (const Piece& piece : pieces) all += piece.area();
+  for (const NearPiece& piece : pieces) all += piece.area();
   if (lamps < tiny_lamps * all)
     l.out.warnings.emplace_back(
         "without light sampling, lamps that make up less than 1/10000 of all surfaces are hardly ever found: the image "
@@ -87,7 +87,7 @@ void warn_of_roulette(Lowering& l) {
 void warn(Lowering& l) {
   const Settings& s = l.out.settings;
   if (l.out.max_radiance == 0) l.out.warnings.emplace_back("nothing in reach emits light: the image will be black");
-  const std::vector<Piece> pieces = pieces_in_reach(l);
+  const std::vector<NearPiece> pieces = pieces_in_reach(l);
   warn_of_near_lamps(l, pieces);
   warn_of_tiny_lamps(l, pieces);
   warn_of_roulette(l);

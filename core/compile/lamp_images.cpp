@@ -58,7 +58,7 @@ class Search {
 
   /// From a camera ray to a point, where it comes nearest.
   dvec3 miss(const dvec2& place, const dvec3& target, double radius) const {
-    Ray ray{view_.eye, normalize(view_.direction(place))};
+    WorldRay ray{view_.eye, normalize(view_.direction(place))};
     dvec3 least{std::numeric_limits<double>::infinity()};
     for (int k = 0; k < most_surfaces; ++k) {
       const auto hit = pick(scene_, ray);

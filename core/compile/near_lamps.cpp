@@ -21,16 +21,16 @@ constexpr double near_lamp = 0.2;
 
 }  // namespace
 
-double Piece::area() const { return radius > 0 ? 4 * std::numbers::pi * radius * radius : glimt::area_of(outline); }
+double NearPiece::area() const { return radius > 0 ? 4 * std::numbers::pi * radius * radius : glimt::area_of(outline); }
 
-double Piece::bound() const {
+double NearPiece::bound() const {
   double far = radius;
   for (const dvec3& v : outline) far = std::max(far, length(v - outline[0]));
   return far;
 }
 
-std::vector<Piece> pieces_in_reach(const Lowering& l) {
-  std::vector<Piece> all;
+std::vector<NearPiece> pieces_in_reach(const Lowering& l) {
+  std::vector<NearPiece> all;
   for (const RoomFace& face : l.reach.room)
     all.push_back({face.outline, 0, &l.scene.materials[static_cast<std::size_t>(face.material)], "the room's wall"});
   for (const Polygon* p : l.reach.polygons) all.push_back({p->vertices, 0, &l.material(p->material), p->name});
@@ -68,7 +68,7 @@ double distance_between_polygons(const std::vector<dvec3>& a, const std::vector<
 
 /// How near what the lamp lights comes to it, metres; infinite where that is clearly farther than `limit`. Both in
 /// world space.
-double lit_distance(const LampBody& lamp, const Piece& piece, double limit) {
+double lit_distance(const LampBody& lamp, const NearPiece& piece, double limit) {
   constexpr double far = std::numeric_limits<double>::infinity();
   const dvec3 &p = lamp.outline[0], first = piece.outline[0];
   double size = lamp.radius;
@@ -111,12 +111,12 @@ std::vector<LampShape> by_solid_angle(const LampShape& shape, bool split) {
 
 }  // namespace
 
-const Piece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<Piece>& pieces, double share) {
+const NearPiece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<NearPiece>& pieces, double share) {
   if (l.lamps.size() * pieces.size() > most_pairs) return nullptr;
   const double limit = share * std::sqrt(area_of(lamp.shape));
   LampBody body = body_of(lamp.shape);
   for (dvec3& v : body.outline) v += l.origin;
-  const auto near = std::ranges::find_if(pieces, [&](const Piece& piece) {
+  const auto near = std::ranges::find_if(pieces, [&](const NearPiece& piece) {
     return is_diffuse(*piece.material) && brightest(*piece.material) > 0 && lit_distance(body, piece, limit) <= limit;
   });
   return near == pieces.end() ? nullptr : &*near;
@@ -128,7 +128,7 @@ void choose_lamp_sampling(Lowering& l) {
   if (s.light_sampling != LightSampling::solid_angle && !automatic) return;
   std::vector<const LampPiece*> near;
   if (automatic && s.mis == Mis::off) {
-    const std::vector<Piece> pieces = pieces_in_reach(l);
+    const std::vector<NearPiece> pieces = pieces_in_reach(l);
     for (const LampPiece& lamp : l.lamps)
       if (is_sampled_by_area(lamp.shape) && nearly_touched(l, lamp, pieces, near_lamp) != nullptr)
         near.push_back(&lamp);

@@ -6,8 +6,8 @@
 /// touch it.
 namespace glimt {
 
-/// A flat or round piece of what is in reach, in world space.
-struct Piece {
+/// A flat or round piece of what is in reach of light, in world space.
+struct NearPiece {
   std::vector<glm::dvec3> outline;  ///< of a sphere its centre
   double radius;                    ///< of a sphere, else 0
   const Material* material;
@@ -18,7 +18,7 @@ struct Piece {
   double bound() const;
 };
 
-std::vector<Piece> pieces_in_reach(const Lowering& l);
+std::vector<NearPiece> pieces_in_reach(const Lowering& l);
 
 /// Of the albedo, the largest channel.
 inline double brightest(const Material& m) {
@@ -28,7 +28,7 @@ inline double brightest(const Material& m) {
 
 /// A matt piece that the lamp lights and that comes nearer to it than `share` of the lamp's size, the root of its area.
 /// Null where there is none, and where so many pieces are not compared, so that edits stay swift.
-const Piece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<Piece>& pieces, double share);
+const NearPiece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<NearPiece>& pieces, double share);
 
 /// Chooses how flat lamps are sampled: lower_lamps() has them by area.
 void choose_lamp_sampling(Lowering& l);

@@ -30,7 +30,7 @@ decltype(auto) visit_object(S& scene, const ObjectId& object, F f) {
 /// Which sides of a surface rays meet.
 enum class Sides { both, front };
 
-double hit(const Sphere& sphere, const Ray& ray, Sides sides) {
+double hit(const Sphere& sphere, const WorldRay& ray, Sides sides) {
   const dvec3 to_eye = ray.origin - sphere.center;
   const double a = dot(ray.direction, ray.direction), b = dot(to_eye, ray.direction);
   // The discriminant from the centre's distance to the ray: no cancellation far away.
@@ -43,7 +43,7 @@ double hit(const Sphere& sphere, const Ray& ray, Sides sides) {
 }
 
 /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
-double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const Ray& ray, Sides sides) {
+double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const WorldRay& ray, Sides sides) {
   const dvec3 e1 = v1 - v0, e2 = v2 - v0, p = cross(ray.direction, e2);
   const double determinant = dot(e1, p);
   if (determinant == 0 || (sides == Sides::front && determinant < 0)) return none;
@@ -55,14 +55,14 @@ double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const Ray& ray, Si
   return v >= 0 && u + v <= 1 && t > 0 ? t : none;
 }
 
-double hit(const Polygon& polygon, const Ray& ray, Sides sides) {
+double hit(const Polygon& polygon, const WorldRay& ray, Sides sides) {
   double nearest = none;
   const auto& v = polygon.vertices;
   for (std::size_t i = 1; i + 1 < v.size(); ++i) nearest = std::min(nearest, hit(v[0], v[i], v[i + 1], ray, sides));
   return nearest;
 }
 
-double hit(const Mesh& mesh, const Ray& ray, Sides sides) {
+double hit(const Mesh& mesh, const WorldRay& ray, Sides sides) {
   double nearest = none;
   const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
   for (const auto& t : mesh.triangles)
@@ -71,7 +71,7 @@ double hit(const Mesh& mesh, const Ray& ray, Sides sides) {
 }
 
 template <class SidesOf>
-std::optional<Pick> first_hit(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out,
+std::optional<Pick> first_hit(const Scene& scene, const WorldRay& ray, const std::optional<ObjectId>& left_out,
                               SidesOf sides_of) {
   Pick first{{}, none};
   for (const ObjectId& object : objects_of(scene)) {
@@ -115,11 +115,11 @@ std::string& material_name_of(Scene& scene, const ObjectId& object) {
   return visit_object(scene, object, [](auto& o) -> std::string& { return o.material; });
 }
 
-std::optional<Pick> pick(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out) {
+std::optional<Pick> pick(const Scene& scene, const WorldRay& ray, const std::optional<ObjectId>& left_out) {
   return first_hit(scene, ray, left_out, [](const ObjectId&) { return Sides::both; });
 }
 
-std::optional<Pick> pick_seen(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out) {
+std::optional<Pick> pick_seen(const Scene& scene, const WorldRay& ray, const std::optional<ObjectId>& left_out) {
   if (scene.camera.cutaway == Cutaway::off) return pick(scene, ray, left_out);
   return first_hit(scene, ray, left_out, [&](const ObjectId& object) {
     const Material* material = find_material(scene, material_name_of(scene, object));

@@ -29,8 +29,8 @@ const std::string& name_of(const Scene& scene, const ObjectId& object);
 const std::string& material_name_of(const Scene& scene, const ObjectId& object);
 std::string& material_name_of(Scene& scene, const ObjectId& object);
 
-/// World space; the direction may have any length.
-struct Ray {
+/// The direction may have any length.
+struct WorldRay {
   glm::dvec3 origin, direction;
 };
 
@@ -41,9 +41,9 @@ struct Pick {
 
 /// The first object that the ray hits from either side, in double precision; of those equally far away, the first in
 /// the order of objects_of(). `left_out` is looked through.
-std::optional<Pick> pick(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out = {});
+std::optional<Pick> pick(const Scene& scene, const WorldRay& ray, const std::optional<ObjectId>& left_out = {});
 
 /// What the scene's camera sees along a ray: the same, but with a cutaway it looks through backs that are not glass.
-std::optional<Pick> pick_seen(const Scene& scene, const Ray& ray, const std::optional<ObjectId>& left_out = {});
+std::optional<Pick> pick_seen(const Scene& scene, const WorldRay& ray, const std::optional<ObjectId>& left_out = {});
 
 }  // namespace glimt

@@ -45,7 +45,7 @@ Box box_of(const Scene& scene) {
 }
 
 /// Distance to the first surface that is not glass, in lengths of the direction; nothing where the ray meets none.
-std::optional<double> distance_to_opaque(const Scene& scene, Ray ray, double size) {
+std::optional<double> distance_to_opaque(const Scene& scene, WorldRay ray, double size) {
   double gone = 0;
   while (const auto hit = pick(scene, ray)) {
     const double distance = gone + hit->distance;
@@ -68,8 +68,8 @@ bool is_enclosed(const Scene& scene, const dvec3& point, double size) {
 }
 
 /// Rays that leave the lamps' fronts.
-std::vector<Ray> rays_from_lamps(const Scene& scene, const dvec3& middle) {
-  std::vector<Ray> rays;
+std::vector<WorldRay> rays_from_lamps(const Scene& scene, const dvec3& middle) {
+  std::vector<WorldRay> rays;
   const auto add = [&](const std::vector<dvec3>& vertices) {
     dvec3 sum{0};
     for (const dvec3& v : vertices) sum += v;
@@ -102,10 +102,10 @@ std::optional<dvec3> place_in_room(const Scene& scene, const dvec3& eye) {
   const Box box = box_of(scene);
   const double size = length(box.high - box.low);
   const dvec3 middle = (box.low + box.high) / 2.0;
-  std::vector<Ray> lamps = rays_from_lamps(scene, middle);
-  std::ranges::stable_sort(lamps, {}, [&](const Ray& ray) { return length(ray.origin - eye); });
+  std::vector<WorldRay> lamps = rays_from_lamps(scene, middle);
+  std::ranges::stable_sort(lamps, {}, [&](const WorldRay& ray) { return length(ray.origin - eye); });
   lamps.resize(std::min(lamps.size(), most_lamps));
-  for (Ray& ray : lamps) {
+  for (WorldRay& ray : lamps) {
     ray.origin += ray.direction * (step_through * size);
     const auto free = distance_to_opaque(scene, ray, size);
     const dvec3 between = ray.origin + ray.direction * (free.value_or(0) / 2);

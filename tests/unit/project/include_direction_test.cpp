@@ -1,6 +1,6 @@
 // Includes point one way: math <- scene <- material <- lamp <- compile <- kernel <- film <- render <- app. Only
 // core/math/lanes.h names xsimd. Core knows no window, no OpenGL and no command line. The maps in core/README.md and
-// app/README.md name every folder.
+// app/README.md name every folder. No two headers give two types the same name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -113,6 +114,32 @@ TEST(Map, NamesEveryFolderOfSourcesAndNoOther) {
     EXPECT_GT(there.size(), 2u) << "the sources were not found under " << root;
     EXPECT_EQ(mapped_rooms(read(root / part / "README.md")), there) << part << "/README.md";
   }
+}
+
+/// Types that a file defines at the top of its namespace, which have no indentation.
+std::vector<std::string> types_of(const std::string& text) {
+  static const std::regex type(R"(^(?:struct|class|enum class|enum|union) (\w+)(?: : [^;{]*)? \{)",
+                               std::regex::multiline);
+  std::vector<std::string> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), type), end; i != end; ++i) found.push_back((*i)[1]);
+  return found;
+}
+
+// The linker joins what both define, a constructor say, and takes either: no compiler warns of it.
+TEST(Headers, NoTwoDefineATypeOfTheSameName) {
+  std::map<std::string, std::string> defined_in;
+  for (const char* part : {"core", "app"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / part)) {
+      if (entry.path().extension() != ".h") continue;
+      const std::string path = fs::relative(entry.path(), root).generic_string();
+      for (const std::string& type : types_of(read(entry.path()))) {
+        const auto [place, is_new] = defined_in.emplace(type, path);
+        EXPECT_TRUE(is_new) << type << " is defined in " << path << " and in " << place->second;
+      }
+    }
+  EXPECT_GT(defined_in.size(), 100u) << "the headers were not found under " << root;
+  EXPECT_EQ(types_of("struct Box : Shape {\n  struct Inner {\n};\nenum class Kind : int {\n"),
+            (std::vector<std::string>{"Box", "Kind"}));
 }
 
 TEST(IncludeDirection, AllowsIncludesFromBelowAndBeside) {

@@ -25,7 +25,7 @@ Scene three_things() {
   return scene;
 }
 
-Ray down(double x, double y) { return {{x, y, 5}, {0, 0, -1}}; }
+WorldRay down(double x, double y) { return {{x, y, 5}, {0, 0, -1}}; }
 
 TEST(Pick, FindsWhatIsInFront) {
   const Scene scene = three_things();
@@ -101,7 +101,7 @@ TEST(CameraView, ProjectsBackWhatItLooksAt) {
 
 TEST(Pick, CutawayLooksThroughBacksThatAreNotGlass) {
   Scene scene = three_things();
-  const Ray up{{2.2, 0.2, -5}, {0, 0, 1}}, from_ball{{0, 0, 2}, {0, 0, 1}};
+  const WorldRay up{{2.2, 0.2, -5}, {0, 0, 1}}, from_ball{{0, 0, 2}, {0, 0, 1}};
   EXPECT_EQ(pick_seen(scene, up)->object, wall) << "from behind";
   scene.camera.cutaway = Cutaway::on;
   EXPECT_FALSE(pick_seen(scene, up)) << "wall and triangle look the other way";
