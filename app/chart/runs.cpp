@@ -41,7 +41,7 @@ ChartPoint point_of(const std::vector<const Measurement*>& measurements, Get err
   return {quantile(seconds, 0.5), quantile(errors, 0.5), quantile(errors, 0.25), quantile(errors, 0.75)};
 }
 
-std::string number(double value) {
+std::string csv_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
@@ -142,9 +142,9 @@ std::string measurements_csv(std::span<const Variant> variants, std::span<const 
   std::string csv = "method,seed,spp,seconds,relmse,relmse999,relmse_estimate\n";
   for (const auto& m : measurements) {
     csv += csv_text(variants[m.variant].name) + "," + std::to_string(m.seed) + "," + std::to_string(m.spp) + "," +
-           number(m.seconds) + ",";
-    csv += m.error ? number(m.error->relmse) + "," + number(m.error->relmse999) + "," : ",,";
-    csv += (std::isfinite(m.relmse_estimate) ? number(m.relmse_estimate) : "") + "\n";
+           csv_number(m.seconds) + ",";
+    csv += m.error ? csv_number(m.error->relmse) + "," + csv_number(m.error->relmse999) + "," : ",,";
+    csv += (std::isfinite(m.relmse_estimate) ? csv_number(m.relmse_estimate) : "") + "\n";
   }
   return csv;
 }

@@ -33,7 +33,7 @@ Style style_of(std::size_t curve) {
   return {colours[curve % colours.size()], dashes[curve % dashes.size()], markers[curve % markers.size()]};
 }
 
-std::string number(double value, const char* format = "%.2f") {
+std::string formatted(double value, const char* format = "%.2f") {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
   return text;
@@ -108,7 +108,7 @@ std::vector<double> ys_of(const Chart& chart) {
 }
 
 std::string power_label(int exponent, int digit) {
-  if (exponent >= -3 && exponent <= 3) return number(digit * std::pow(10, exponent), "%.6g");
+  if (exponent >= -3 && exponent <= 3) return formatted(digit * std::pow(10, exponent), "%.6g");
   const std::string front = digit == 1 ? "" : std::to_string(digit) + "·";
   return front + "10<tspan dy='-5' font-size='9'>" + (exponent < 0 ? "−" : "") + std::to_string(std::abs(exponent)) +
          "</tspan>";
@@ -128,7 +128,7 @@ std::vector<Tick> linear_ticks(const Scale& scale) {
   std::vector<Tick> ticks;
   const int last = static_cast<int>(std::floor(scale.last / step));
   for (int i = static_cast<int>(std::ceil(scale.first / step)); i <= last; ++i)
-    ticks.push_back({i * step, number(i * step, "%.4g")});
+    ticks.push_back({i * step, formatted(i * step, "%.4g")});
   return ticks;
 }
 
@@ -143,12 +143,13 @@ class Drawing {
 
   std::string svg() {
     const std::string body = axes() + guide() + curves() + legend();
-    const std::string size = number(width, "%.0f") + "' height='" + number(height_, "%.0f");
-    return "<svg xmlns='http://www.w3.org/2000/svg' width='" + size + "' viewBox='0 0 " + number(width, "%.0f") + " " +
-           number(height_, "%.0f") + "' font-family='Helvetica, Arial, sans-serif' font-size='13' fill='#222'>\n" +
-           "<rect width='100%' height='100%' fill='#fff'/>\n<clipPath id='plot'><rect x='" + number(left) + "' y='" +
-           number(top) + "' width='" + number(plot_width) + "' height='" + number(plot_height) + "'/></clipPath>\n" +
-           body + "</svg>\n";
+    const std::string size = formatted(width, "%.0f") + "' height='" + formatted(height_, "%.0f");
+    return "<svg xmlns='http://www.w3.org/2000/svg' width='" + size + "' viewBox='0 0 " + formatted(width, "%.0f") +
+           " " + formatted(height_, "%.0f") +
+           "' font-family='Helvetica, Arial, sans-serif' font-size='13' fill='#222'>\n" +
+           "<rect width='100%' height='100%' fill='#fff'/>\n<clipPath id='plot'><rect x='" + formatted(left) + "' y='" +
+           formatted(top) + "' width='" + formatted(plot_width) + "' height='" + formatted(plot_height) +
+           "'/></clipPath>\n" + body + "</svg>\n";
   }
 
  private:
@@ -156,11 +157,11 @@ class Drawing {
   double down(double y) const { return top + plot_height * (1 - y_.place(y)); }
 
   static std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
-    return "<line x1='" + number(x1) + "' y1='" + number(y1) + "' x2='" + number(x2) + "' y2='" + number(y2) + "' " +
-           style + "/>\n";
+    return "<line x1='" + formatted(x1) + "' y1='" + formatted(y1) + "' x2='" + formatted(x2) + "' y2='" +
+           formatted(y2) + "' " + style + "/>\n";
   }
   static std::string text(double x, double y, const std::string& style, const std::string& content) {
-    return "<text x='" + number(x) + "' y='" + number(y) + "' " + style + ">" + content + "</text>\n";
+    return "<text x='" + formatted(x) + "' y='" + formatted(y) + "' " + style + ">" + content + "</text>\n";
   }
 
   std::string axes() const {
@@ -177,10 +178,10 @@ class Drawing {
       svg += line(left, down(tick.value), left + plot_width, down(tick.value), grid(tick));
       if (!tick.label.empty()) svg += text(left - 8, down(tick.value) + 4.5, "text-anchor='end'", tick.label);
     }
-    svg += "<rect x='" + number(left) + "' y='" + number(top) + "' width='" + number(plot_width) + "' height='" +
-           number(plot_height) + "' fill='none' stroke='#444'/>\n";
+    svg += "<rect x='" + formatted(left) + "' y='" + formatted(top) + "' width='" + formatted(plot_width) +
+           "' height='" + formatted(plot_height) + "' fill='none' stroke='#444'/>\n";
     svg += text(left + plot_width / 2, bottom + 40, "text-anchor='middle'", escaped(chart_.x.label));
-    const std::string middle = number(top + plot_height / 2);
+    const std::string middle = formatted(top + plot_height / 2);
     return svg + text(18, top + plot_height / 2, "text-anchor='middle' transform='rotate(-90 18 " + middle + ")'",
                       escaped(chart_.y.label));
   }
@@ -200,7 +201,7 @@ class Drawing {
   std::string polyline(const std::vector<ChartPoint>& points, const std::string& style) const {
     std::string svg = "<polyline fill='none' " + style + " points='";
     for (const auto& p : points)
-      if (can_show(chart_, p)) svg += number(across(p.x)) + "," + number(down(p.y)) + " ";
+      if (can_show(chart_, p)) svg += formatted(across(p.x)) + "," + formatted(down(p.y)) + " ";
     return svg + "'/>\n";
   }
 
@@ -208,8 +209,8 @@ class Drawing {
     std::string there, back;
     for (const auto& p : curve.points) {
       if (!can_show(chart_, p) || !can_show(chart_.y, p.low) || !can_show(chart_.y, p.high)) continue;
-      there += number(across(p.x)) + "," + number(down(p.low)) + " ";
-      back = number(across(p.x)) + "," + number(down(p.high)) + " " + back;
+      there += formatted(across(p.x)) + "," + formatted(down(p.low)) + " ";
+      back = formatted(across(p.x)) + "," + formatted(down(p.high)) + " " + back;
     }
     return "<polygon stroke='none' fill-opacity='0.18' fill='" + std::string(colour) + "' points='" + there + back +
            "'/>\n";
@@ -230,8 +231,8 @@ class Drawing {
   }
 
   static std::string marker_at(double x, double y, const std::string& colour, const char* marker) {
-    return "<g transform='translate(" + number(x) + " " + number(y) + ")' fill='" + colour + "' stroke='" + colour +
-           "' stroke-width='1.2'>" + marker + "</g>\n";
+    return "<g transform='translate(" + formatted(x) + " " + formatted(y) + ")' fill='" + colour + "' stroke='" +
+           colour + "' stroke-width='1.2'>" + marker + "</g>\n";
   }
 
   /// Below the plot, in as many columns as the longest label allows.

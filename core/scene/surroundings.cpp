@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "math/box.h"
 #include "scene/fields.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/geometry/room.h"
@@ -22,24 +22,15 @@ constexpr int directions = 32;         ///< that a closed room must hide the ope
 constexpr std::size_t most_lamps = 8;  ///< a room is looked for at so many of the nearest
 constexpr double step_through = 1e-9;  ///< past a glass surface, in sizes of the scene
 
-struct Box {
-  dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
-
-  void include(const dvec3& v) {
-    low = min(low, v);
-    high = max(high, v);
-  }
-};
-
 Box box_of(const Scene& scene) {
   Box box;
   for (const Polygon& p : scene.polygons)
-    for (const dvec3& v : p.vertices) box.include(v);
+    for (const dvec3& v : p.vertices) box.add(v);
   for (const Mesh& m : scene.meshes)
-    for (const dvec3& v : m.vertices) box.include(v);
+    for (const dvec3& v : m.vertices) box.add(v);
   for (const Sphere& s : scene.spheres) {
-    box.include(s.center - s.radius);
-    box.include(s.center + s.radius);
+    box.add(s.center - s.radius);
+    box.add(s.center + s.radius);
   }
   return box;
 }
@@ -93,14 +84,14 @@ std::vector<WorldRay> rays_from_lamps(const Scene& scene, const dvec3& middle) {
 
 double size_of(const Scene& scene) {
   const Box box = box_of(scene);
-  return length(box.high - box.low);
+  return box.size();
 }
 
 bool is_enclosed(const Scene& scene, const dvec3& point) { return is_enclosed(scene, point, size_of(scene)); }
 
 std::optional<dvec3> place_in_room(const Scene& scene, const dvec3& eye) {
   const Box box = box_of(scene);
-  const double size = length(box.high - box.low);
+  const double size = box.size();
   const dvec3 middle = (box.low + box.high) / 2.0;
   std::vector<WorldRay> lamps = rays_from_lamps(scene, middle);
   std::ranges::stable_sort(lamps, {}, [&](const WorldRay& ray) { return length(ray.origin - eye); });

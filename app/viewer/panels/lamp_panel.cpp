@@ -13,7 +13,7 @@
 namespace glimt {
 namespace {
 
-constexpr double smallest = 1e-3;  ///< metres
+constexpr double smallest_lamp = 1e-3;  ///< metres
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void draw_lamp_panel(const ViewerState& state, Edits& edits) {
     const FieldText text{.name = path + ".size",
                          .key = "size",
                          .doc = "largest extent, metres; the lamp grows about its middle",
-                         .min = smallest,
+                         .min = smallest_lamp,
                          .max = max_coordinate};
     if (edit_value(text, size)) scale(edits.edit(state), lamp, size / before);
   }

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "math/box.h"
 #include "scene/fields.h"
 #include "scene/validate/validate.h"
 
@@ -30,13 +31,9 @@ std::vector<dvec3>& vertices_of(Scene& scene, const ObjectId& object) {
   return object.kind == ObjectKind::mesh ? scene.meshes[object.index].vertices : scene.polygons[object.index].vertices;
 }
 
-struct Box {
-  dvec3 low, high;
-};
-
 Box box_of(const std::vector<dvec3>& vertices) {
-  Box box{vertices.front(), vertices.front()};
-  for (const dvec3& v : vertices) box = {min(box.low, v), max(box.high, v)};
+  Box box;
+  for (const dvec3& v : vertices) box.add(v);
   return box;
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <span>
 
+#include "math/box.h"
 #include "scene/geometry/mesh_measures.h"
 
 namespace glimt {
@@ -16,14 +17,6 @@ namespace {
 
 using glm::dvec3;
 using Triangle = std::array<dvec3, 3>;
-
-struct Box {
-  dvec3 low{std::numeric_limits<double>::infinity()};
-  dvec3 high{-std::numeric_limits<double>::infinity()};
-
-  void add(const dvec3& p) { low = min(low, p), high = max(high, p); }
-  double size() const { return length(high - low); }
-};
 
 bool meet(const Box& a, const Box& b, double tolerance) {
   return all(lessThanEqual(a.low, b.high + tolerance)) && all(lessThanEqual(b.low, a.high + tolerance));
@@ -155,13 +148,13 @@ std::vector<dvec3> probes(const Mesh& mesh, const std::vector<Triangle>& triangl
   return points;
 }
 
-struct Sides {
+struct SidesFound {
   bool inside = false, outside = false;
 };
 
-Sides sides(const std::vector<dvec3>& points, const Mesh& closed, const std::vector<Triangle>& triangles,
-            double tolerance) {
-  Sides found;
+SidesFound sides(const std::vector<dvec3>& points, const Mesh& closed, const std::vector<Triangle>& triangles,
+                 double tolerance) {
+  SidesFound found;
   for (const dvec3& p : points) {
     if (found.inside && found.outside) break;
     const Side side = side_of(closed, triangles, p, tolerance);
@@ -211,8 +204,8 @@ bool overlap(const Mesh& a, const Mesh& b) {
   if (pierced) return true;
 
   // Neither surface crosses the other clearly, so each part of one is inside, outside or on the surface of the other.
-  const Sides a_in_b = sides(probes(a, of_a, touching_a), b, of_b, tolerance);
-  const Sides b_in_a = sides(probes(b, of_b, touching_b), a, of_a, tolerance);
+  const SidesFound a_in_b = sides(probes(a, of_a, touching_a), b, of_b, tolerance);
+  const SidesFound b_in_a = sides(probes(b, of_b, touching_b), a, of_a, tolerance);
   const bool crossing =
       (a_in_b.inside && a_in_b.outside) || (b_in_a.inside && b_in_a.outside) || (a_in_b.inside && b_in_a.inside);
   const bool coincide = !a_in_b.inside && !a_in_b.outside && !b_in_a.inside && !b_in_a.outside;
