@@ -63,7 +63,7 @@ void print(const char* name, const Convergence& c) {
 
 // Independent samples: the variance of a mean of N is 1 / N that of one (a t-test of the slope). Those that fill their
 // sequences evenly do better: a one-sided t-test against a slope steeper than -1/2 by 0.02.
-TEST(Convergence, EvenSamplersAreFasterThanTheRootOfTheirNumber) {
+TEST(ConvergenceLong, EvenSamplersAreFasterThanTheRootOfTheirNumber) {
   const Scene scene = read_scene(GLIMT_SCENES "/hexagon_empty.toml");
   constexpr int pairs = 20;
   const Convergence independent = measure(scene, Sampler::independent, pairs);

@@ -50,7 +50,7 @@ Scene room() {
 
 // The lamp's front is the side of its normal. Light that meets a surface is pi times the mean of the radiance from
 // directions in proportion to the cosine; rays begin a hair in front of the surface.
-TEST(Power, EmittedIsAbsorbed) {
+TEST(PowerLong, EmittedIsAbsorbed) {
   Scene scene = room();
   const auto& v = scene.polygons[6].vertices;
   std::vector<Absorber> absorbers;

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, TailSharing, testing::ValuesIn(scenes()),
 
 // Pixel by pixel, since means of blocks do not see what a square gives to the wrong one of its pixels. In scenes whose
 // squares look at very different things, and without caustics, whose noise is far from normal.
-TEST(SharedTails, GoToThePixelsTheyAreFor) {
+TEST(SharedTailsLong, GoToThePixelsTheyAreFor) {
   for (Scene scene : scenes()) {
     if (scene.name != "small mirrors" && scene.name != "small balls" && scene.name != "fins") continue;
     scene.render.caustics = Caustics::off;

@@ -75,7 +75,7 @@ TEST(CausticsOfALamp, HaveNoMoreNoiseHoweverSmallItIs) {
 
 // Failure: where a ball touches the floor the light is squeezed into nothing. Both estimators go on agreeing
 // (probability of a false alarm 1e-4).
-TEST(CausticsOfALamp, AreRightWhereTheBallTouchesTheFloor) {
+TEST(CausticsOfALampLong, AreRightWhereTheBallTouchesTheFloor) {
   for (const double gap : {1e-2, 1e-4, 0.0, -1e-3}) {
     Scene scene = ball_on_floor(1);
     scene.spheres[0].center.y = -0.6 + gap;
@@ -107,7 +107,7 @@ TEST(CausticsOfALamp, AreNoWorseThanByChanceCloseToTheEye) {
 // Failure: as above. Connections meet every lamp. What they bring grows as 1 / sqrt(distance) towards a fold, the edge
 // of a caustic, up to what chance would bring: its variance grows with the logarithm of the lamp's size, by samples so
 // rare that 99 of 100 pixels do not know of them.
-TEST(CausticsThroughGlass, HaveHardlyMoreNoiseHoweverSmallTheLampIs) {
+TEST(CausticsThroughGlassLong, HaveHardlyMoreNoiseHoweverSmallTheLampIs) {
   const Noise large = noise(ball_from_bubble(0.1));
   for (const double edge : {0.03, 0.01, 1e-3, 1e-4}) {
     const Noise small = noise(ball_from_bubble(edge));
@@ -121,7 +121,7 @@ TEST(CausticsThroughGlass, HaveHardlyMoreNoiseHoweverSmallTheLampIs) {
 
 // Failure: connections to points that nearly touch the sphere lose their digits, and the tubes of rays there are next
 // to nothing. Both estimators go on agreeing (probability of a false alarm 1e-4), and connections have no more noise.
-TEST(CausticsThroughGlass, AreRightWhereTheBallTouchesTheFloor) {
+TEST(CausticsThroughGlassLong, AreRightWhereTheBallTouchesTheFloor) {
   for (const double gap : {1e-2, 1e-4, 1e-6, 0.0, -1e-3}) {
     Scene scene = ball_from_bubble(1);
     scene.spheres[0].center.y = -0.6 + gap;
