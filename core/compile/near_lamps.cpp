@@ -111,7 +111,8 @@ std::vector<LampShape> by_solid_angle(const LampShape& shape, bool split) {
 
 }  // namespace
 
-const NearPiece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<NearPiece>& pieces, double share) {
+const NearPiece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<NearPiece>& pieces,
+                                double share) {
   if (l.lamps.size() * pieces.size() > most_pairs) return nullptr;
   const double limit = share * std::sqrt(area_of(lamp.shape));
   LampBody body = body_of(lamp.shape);

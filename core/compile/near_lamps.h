@@ -28,7 +28,8 @@ inline double brightest(const Material& m) {
 
 /// A matt piece that the lamp lights and that comes nearer to it than `share` of the lamp's size, the root of its area.
 /// Null where there is none, and where so many pieces are not compared, so that edits stay swift.
-const NearPiece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<NearPiece>& pieces, double share);
+const NearPiece* nearly_touched(const Lowering& l, const LampPiece& lamp, const std::vector<NearPiece>& pieces,
+                                double share);
 
 /// Chooses how flat lamps are sampled: lower_lamps() has them by area.
 void choose_lamp_sampling(Lowering& l);
