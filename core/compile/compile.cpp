@@ -9,6 +9,7 @@
 #include "compile/lowering.h"
 #include "material/lobes.h"
 #include "scene/file/scene_file.h"
+#include "scene/geometry/mend.h"
 #include "scene/validate/validate.h"
 
 namespace glimt {
@@ -211,9 +212,10 @@ void describe(Lowering& l) {
 
 }  // namespace
 
-CompiledScene compile(const Scene& scene) {
-  if (const std::vector<Problem> problems = validate(scene); !problems.empty())
+CompiledScene compile(const Scene& as_edited) {
+  if (const std::vector<Problem> problems = validate(as_edited); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
+  const auto [scene, mended] = mend(as_edited);
   Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
@@ -225,7 +227,8 @@ CompiledScene compile(const Scene& scene) {
   l.out.camera_outside = l.reach.camera_outside;
   l.out.room_hides_lamps = l.reach.lamp_pierces_room;
   l.out.left_out = l.reach.left_out;
-  l.out.warnings = l.reach.warnings;
+  l.out.warnings = mended;
+  l.out.warnings.insert(l.out.warnings.end(), l.reach.warnings.begin(), l.reach.warnings.end());
   lower_room(l);
   l.out.room_surfaces = static_cast<int>(l.surfaces.size());
   for (const Polygon* p : l.reach.polygons) lower_polygon(l, *p);

@@ -5,7 +5,6 @@
 #include "compile/lowering.h"
 #include "scene/file/text.h"
 #include "scene/geometry/mesh_measures.h"
-#include "scene/validate/validate.h"
 
 namespace glimt {
 
@@ -34,7 +33,8 @@ std::vector<HalfSpace> convex_planes(const Mesh& mesh) {
     if (std::none_of(planes.begin(), planes.end(), [&](const HalfSpace& p) { return same_plane(p, h, tolerance); }))
       planes.push_back(h);
   }
-  return planes;
+  // Fewer bound nothing.
+  return planes.size() < 4 ? std::vector<HalfSpace>{} : planes;
 }
 
 /// Closed convex meshes become planes where that gives the same hits. Returns false where it does not.

@@ -9,7 +9,6 @@
 #include "scene/file/text.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/surroundings.h"
-#include "scene/validate/validate.h"
 
 namespace glimt {
 

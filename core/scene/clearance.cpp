@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "scene/geometry/convex_pieces.h"
+
 namespace glimt {
 namespace {
 
@@ -57,7 +59,8 @@ class Obstacles {
         triangles_.push_back(triangle);
     };
     for (const Polygon& p : scene.polygons)
-      for (std::size_t i = 1; i + 1 < p.vertices.size(); ++i) add({p.vertices[0], p.vertices[i], p.vertices[i + 1]});
+      for (const auto& v : convex_pieces(p.vertices).pieces)
+        for (std::size_t i = 1; i + 1 < v.size(); ++i) add({v[0], v[i], v[i + 1]});
     for (const Mesh& m : scene.meshes)
       for (const auto& t : m.triangles) {
         const auto vertex = [&](std::size_t k) { return m.vertices[static_cast<std::size_t>(t[k])]; };

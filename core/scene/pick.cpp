@@ -42,24 +42,42 @@ double hit(const Sphere& sphere, const WorldRay& ray, Sides sides) {
   return sides == Sides::both && -b + root > 0 ? (-b + root) / a : none;
 }
 
+struct TriangleHit {
+  double distance = none;
+  bool front = false;
+};
+
 /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
-double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const WorldRay& ray, Sides sides) {
+TriangleHit hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const WorldRay& ray) {
   const dvec3 e1 = v1 - v0, e2 = v2 - v0, p = cross(ray.direction, e2);
   const double determinant = dot(e1, p);
-  if (determinant == 0 || (sides == Sides::front && determinant < 0)) return none;
+  if (determinant == 0) return {};
   const dvec3 s = (ray.origin - v0) / determinant;
   const double u = dot(s, p);
-  if (!(u >= 0 && u <= 1)) return none;
+  if (!(u >= 0 && u <= 1)) return {};
   const dvec3 q = cross(s, e1);
   const double v = dot(ray.direction, q), t = dot(e2, q);
-  return v >= 0 && u + v <= 1 && t > 0 ? t : none;
+  return v >= 0 && u + v <= 1 && t > 0 ? TriangleHit{t, determinant > 0} : TriangleHit{};
 }
 
+double hit(const dvec3& v0, const dvec3& v1, const dvec3& v2, const WorldRay& ray, Sides sides) {
+  const TriangleHit found = hit(v0, v1, v2, ray);
+  return sides == Sides::both || found.front ? found.distance : none;
+}
+
+/// Of the fan of triangles from the first vertex those cover the polygon, convex or not, that are met more often from
+/// one side than from the other.
 double hit(const Polygon& polygon, const WorldRay& ray, Sides sides) {
   double nearest = none;
+  int fronts = 0;
   const auto& v = polygon.vertices;
-  for (std::size_t i = 1; i + 1 < v.size(); ++i) nearest = std::min(nearest, hit(v[0], v[i], v[i + 1], ray, sides));
-  return nearest;
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) {
+    const TriangleHit found = hit(v[0], v[i], v[i + 1], ray);
+    if (found.distance == none) continue;
+    nearest = std::min(nearest, found.distance);
+    fronts += found.front ? 1 : -1;
+  }
+  return fronts > 0 || (fronts < 0 && sides == Sides::both) ? nearest : none;
 }
 
 double hit(const Mesh& mesh, const WorldRay& ray, Sides sides) {

@@ -41,7 +41,8 @@ struct Sphere {
   bool operator==(const Sphere&) const = default;
 };
 
-/// A planar convex polygon. Its front is the side from which the vertices run counter-clockwise.
+/// Its front is the side from which the vertices run counter-clockwise. What is not flat and convex is rendered in
+/// pieces (scene/geometry/mend.h).
 struct Polygon {
   std::string name;
   std::string material;

@@ -6,6 +6,9 @@ namespace glimt {
 
 std::vector<glm::dvec3> triangle_vertices(const Mesh& mesh, const std::array<int, 3>& triangle);
 
+/// True where triangles run along every edge as often one way as the other.
+bool is_closed(const Mesh& mesh);
+
 /// Cubic metres; positive where the triangles' fronts look outwards. The mesh is closed.
 double signed_volume(const Mesh& mesh);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scene/fields.h"
+#include "scene/geometry/mend.h"
 #include "scene/validate/validate_parts.h"
 
 namespace glimt {
@@ -145,7 +146,11 @@ std::vector<Problem> validate(const Scene& scene) {
   if (scene.spheres.empty() && scene.polygons.empty() && scene.meshes.empty())
     problems.push_back({"", "the scene holds nothing; it takes at least one [[sphere]], [[polygon]] or [[mesh]]"});
   check_extent(scene, problems);
-  if (problems.empty()) check_glass(scene, problems);
+  if (problems.empty() && std::ranges::any_of(scene.materials, [](const Material& m) { return transmits(m); })) {
+    Scene mended = mend(scene).scene;
+    mended.polygons = scene.polygons;
+    check_glass(mended, problems);
+  }
   return problems;
 }
 

@@ -1,6 +1,7 @@
 #include <string>
 
 #include "scene/fields.h"
+#include "scene/geometry/mesh_measures.h"
 #include "scene/geometry/solid_overlap.h"
 #include "scene/validate/validate_parts.h"
 

@@ -24,15 +24,15 @@ inline std::string element(std::string_view array, std::size_t index) {
   return std::string(array) + "[" + std::to_string(index) + "]";
 }
 
-/// Vertices that are missing, not finite, coincident or without a common plane, and outlines without area or not
-/// convex.
+/// Vertices that are missing, not finite or far from a common plane, and outlines without area or that cross
+/// themselves.
 void check_polygon(const Polygon& polygon, std::size_t index, Problems& problems);
 
-/// Vertices that are not finite, indices out of range, triangles without area.
+/// Vertices that are not finite, indices out of range, no triangle with an area.
 void check_mesh(const Mesh& mesh, std::size_t index, Problems& problems);
 
 /// Glass on open shapes; glass solids that neither stay apart nor lie one within the other. The scene is otherwise
-/// valid.
+/// valid, and mended but for its polygons.
 void check_glass(const Scene& scene, Problems& problems);
 
 }  // namespace glimt

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/geometry/mesh_measures.h"
 #include "scene/validate/validate.h"
 #include "unit/kernel/test_scenes.h"
 

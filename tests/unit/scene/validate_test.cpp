@@ -8,6 +8,7 @@
 
 #include "material/list.h"
 #include "scene/fields.h"
+#include "scene/geometry/mesh_measures.h"
 #include "unit/kernel/test_scenes.h"
 
 namespace glimt {
@@ -162,19 +163,14 @@ TEST(ValidatePolygon, StarsAreRefused) {
   EXPECT_EQ(polygon_paths(regular(7, 3)), Paths{"polygon[0].vertices"});
 }
 
-TEST(ValidatePolygon, SpikesAreRefused) {
-  EXPECT_FALSE(polygon_paths({{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 1, 0}}).empty());
-  EXPECT_FALSE(polygon_paths({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 2, 0}, {1, 1, 0}, {0, 1, 0}}).empty());
-}
-
-TEST(ValidatePolygon, PlanarToAMillionthOfTheSize) {
+TEST(ValidatePolygon, PlanarToAHundredthOfTheSize) {
   for (const double size : {1e-3, 1.0, 1e6}) {
-    // A square with one corner lifted by h has each corner h / 4 off the mean plane; the diagonal is its size.
+    // A square with one corner lifted by h has each corner about h / 4 off the mean plane; the diagonal is its size.
     const auto lifted = [&](double h) {
       return std::vector<dvec3>{{0, 0, 0}, {size, 0, 0}, {size, h, size}, {0, 0, size}};
     };
-    EXPECT_EQ(polygon_paths(lifted(4 * 1.3e-6 * size)), Paths{}) << size;
-    EXPECT_EQ(polygon_paths(lifted(4 * 1.5e-6 * size)).size(), 1u) << size;
+    EXPECT_EQ(polygon_paths(lifted(4 * 0.013 * size)), Paths{}) << size;
+    EXPECT_EQ(polygon_paths(lifted(4 * 0.015 * size)).size(), 1u) << size;
   }
 }
 
@@ -208,12 +204,13 @@ TEST(ValidateMesh, IndicesAndTriangles) {
   mesh.material = "white";
   mesh.triangles[2][1] = 8;
   mesh.triangles[4][0] = -1;
-  mesh.triangles[5] = {0, 1, 1};
-  EXPECT_EQ(paths(scene_of({}, {}, {mesh})),
-            (Paths{"mesh[0].triangles[2]", "mesh[0].triangles[4]", "mesh[0].triangles[5]"}));
+  EXPECT_EQ(paths(scene_of({}, {}, {mesh})), (Paths{"mesh[0].triangles[2]", "mesh[0].triangles[4]"}));
   mesh.vertices[7].z = std::numeric_limits<double>::infinity();
   mesh.triangles = cube({}, 1).triangles;
   EXPECT_EQ(paths(scene_of({}, {}, {mesh})), Paths{"mesh[0].vertices[7]"});
+  mesh.vertices[7].z = 1;
+  mesh.triangles = {{0, 1, 1}, {2, 2, 3}};
+  EXPECT_EQ(paths(scene_of({}, {}, {mesh})), Paths{"mesh[0].triangles"}) << "none has an area";
 }
 
 TEST(ValidateMesh, OpenMeshesAreAllowedUnlessOfGlass) {

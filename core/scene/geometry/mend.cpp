@@ -1,0 +1,211 @@
+#include "scene/geometry/mend.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <set>
+#include <unordered_map>
+
+#include "scene/file/text.h"
+#include "scene/geometry/convex_pieces.h"
+#include "scene/geometry/mesh_measures.h"
+
+namespace glimt {
+namespace {
+
+using glm::dvec3;
+using Corners = std::array<int, 3>;
+
+/// Of a mesh's size: vertices nearer than this are one. Exporters that repeat the corners of a face write single
+/// precision.
+constexpr double weld_tolerance = 0x1p-20;
+
+/// Things of one kind that were mended.
+struct Tally {
+  std::size_t count = 0;
+  std::string first;
+
+  void add(std::size_t n, const std::string& place) {
+    if (count == 0) first = place;  // without any, the next takes its place
+    count += n;
+  }
+  void tell(std::vector<std::string>& told, const char* one, const char* many) const {
+    if (count > 0)
+      told.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + "; the first: " + first);
+  }
+};
+
+struct Tallies {
+  Tally polygons, left_out, flat, twice, welded;
+};
+
+std::string place_in(const char* kind, const std::string& name, std::size_t index) {
+  return std::string(kind) + " " + (name.empty() ? std::to_string(index) : toml_string(name));
+}
+
+const dvec3& vertex(const Mesh& mesh, int i) { return mesh.vertices[static_cast<std::size_t>(i)]; }
+
+bool is_flat(const Mesh& mesh, const Corners& t) {
+  return has_no_area(vertex(mesh, t[0]), vertex(mesh, t[1]), vertex(mesh, t[2]));
+}
+
+/// For each vertex the first that is in its place.
+std::vector<int> first_in_place(const std::vector<dvec3>& vertices) {
+  dvec3 low{vertices.front()}, high{low};
+  for (const dvec3& v : vertices) low = min(low, v), high = max(high, v);
+  const double tolerance = weld_tolerance * length(high - low), cell = 8 * tolerance;
+  std::vector<int> first(vertices.size());
+  std::unordered_multimap<std::uint64_t, int> cells;
+  const auto key = [](std::int64_t x, std::int64_t y, std::int64_t z) {
+    return static_cast<std::uint64_t>((x * 73856093) ^ (y * 19349663) ^ (z * 83492791));
+  };
+  const auto number = [&](double x) { return tolerance > 0 ? static_cast<std::int64_t>(std::floor(x / cell)) : 0; };
+  for (int i = 0; i < static_cast<int>(vertices.size()); ++i) {
+    const dvec3 p = vertices[static_cast<std::size_t>(i)] - low;
+    int& own = first[static_cast<std::size_t>(i)];
+    own = i;
+    for (std::int64_t x = number(p.x - tolerance); x <= number(p.x + tolerance); ++x)
+      for (std::int64_t y = number(p.y - tolerance); y <= number(p.y + tolerance); ++y)
+        for (std::int64_t z = number(p.z - tolerance); z <= number(p.z + tolerance); ++z) {
+          const auto [begin, end] = cells.equal_range(key(x, y, z));
+          for (auto it = begin; it != end; ++it)
+            if (length(vertices[static_cast<std::size_t>(it->second)] - low - p) <= tolerance)
+              own = std::min(own, it->second);
+        }
+    if (own == i) cells.emplace(key(number(p.x), number(p.y), number(p.z)), i);
+  }
+  return first;
+}
+
+std::uint64_t directed(int from, int to) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32 | static_cast<std::uint32_t>(to);
+}
+
+/// Takes out the triangles without area. One whose corners are three on a line has its middle corner on the edge of a
+/// neighbour, which is cut in two there, so that a closed mesh stays closed.
+void drop_flat(Mesh& mesh) {
+  std::vector<Corners> all = mesh.triangles;
+  std::vector<bool> kept(all.size(), true);
+  std::deque<std::size_t> flat;
+  std::unordered_multimap<std::uint64_t, std::size_t> with_edge;
+  const auto note = [&](std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) with_edge.emplace(directed(all[i][k], all[i][(k + 1) % 3]), i);
+    if (is_flat(mesh, all[i])) flat.push_back(i);
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) note(i);
+  // Neighbours may be flat too, and what is cut of them.
+  for (std::size_t left = 4 * all.size(); !flat.empty(); --left) {
+    const std::size_t i = flat.front();
+    flat.pop_front();
+    if (!kept[i]) continue;
+    kept[i] = false;
+    const Corners t = all[i];
+    if (left == 0) continue;
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    const auto edge = [&](std::size_t k) { return length(vertex(mesh, t[(k + 1) % 3]) - vertex(mesh, t[(k + 2) % 3])); };
+    const std::size_t middle = edge(0) >= edge(1) && edge(0) >= edge(2) ? 0 : edge(1) >= edge(2) ? 1 : 2;
+    const int b = t[middle], c = t[(middle + 1) % 3], a = t[(middle + 2) % 3];
+    const auto [begin, end] = with_edge.equal_range(directed(a, c));
+    const auto neighbour = std::find_if(begin, end, [&](const auto& entry) { return kept[entry.second]; });
+    if (neighbour == end) continue;
+    const Corners n = all[neighbour->second];
+    kept[neighbour->second] = false;
+    const int d = n[0] != a && n[0] != c ? n[0] : n[1] != a && n[1] != c ? n[1] : n[2];
+    for (const Corners& part : {Corners{a, b, d}, Corners{b, c, d}}) {
+      all.push_back(part);
+      kept.push_back(true);
+      note(all.size() - 1);
+    }
+  }
+  mesh.triangles.clear();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (kept[i] && !is_flat(mesh, all[i])) mesh.triangles.push_back(all[i]);
+}
+
+/// Triangles of the same three corners that face the same way are one. Returns how many were more.
+std::size_t drop_repeated(Mesh& mesh) {
+  std::set<Corners> seen;
+  return std::erase_if(mesh.triangles, [&](Corners t) {
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return !seen.insert(t).second;
+  });
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+  std::vector<int> place(mesh.vertices.size(), -1);
+  std::vector<dvec3> used;
+  for (Corners& t : mesh.triangles)
+    for (int& i : t) {
+      int& p = place[static_cast<std::size_t>(i)];
+      if (p < 0) {
+        p = static_cast<int>(used.size());
+        used.push_back(vertex(mesh, i));
+      }
+      i = p;
+    }
+  mesh.vertices = std::move(used);
+}
+
+void mend(Mesh& mesh, std::size_t index, Tallies& tallies) {
+  const std::string name = place_in("mesh", mesh.name, index);
+  const bool closed = is_closed(mesh);
+  const auto flat = std::ranges::count_if(mesh.triangles, [&](const Corners& t) { return is_flat(mesh, t); });
+  const std::vector<int> first = first_in_place(mesh.vertices);
+  Mesh welded = mesh;
+  for (Corners& t : welded.triangles)
+    for (int& i : t) i = first[static_cast<std::size_t>(i)];
+  if (flat > 0) drop_flat(welded);
+  const std::size_t twice = drop_repeated(welded);
+  if (closed && flat == 0 && twice == 0) return;
+
+  tallies.flat.add(static_cast<std::size_t>(flat), name);
+  tallies.twice.add(twice, name);
+  // Only a mesh that becomes closed has a use for vertices that are shared.
+  const bool helps = is_closed(welded);
+  if (helps && !closed)
+    for (std::size_t i = 0; i < first.size(); ++i)
+      if (first[i] != static_cast<int>(i)) tallies.welded.add(1, name);
+  if (!helps && flat == 0 && twice == 0) return;
+  if (helps || twice > 0)
+    mesh = std::move(welded);
+  else
+    drop_flat(mesh);
+  drop_unused_vertices(mesh);
+}
+
+}  // namespace
+
+bool has_no_area(const dvec3& a, const dvec3& b, const dvec3& c) {
+  const double size = std::max({length(b - a), length(c - b), length(a - c)});
+  return !(length(cross(b - a, c - a)) > degenerate * size * size);
+}
+
+Mended mend(const Scene& scene) {
+  Mended mended{scene, {}};
+  Tallies tallies;
+  mended.scene.polygons.clear();
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+    const Polygon& polygon = scene.polygons[i];
+    ConvexPieces cut = convex_pieces(polygon.vertices);
+    if (cut.bent) tallies.polygons.add(1, place_in("polygon", polygon.name, i));
+    tallies.left_out.add(static_cast<std::size_t>(cut.left_out), place_in("polygon", polygon.name, i));
+    for (auto& piece : cut.pieces) mended.scene.polygons.push_back({polygon.name, polygon.material, std::move(piece)});
+  }
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) mend(mended.scene.meshes[i], i, tallies);
+  tallies.polygons.tell(mended.told, "polygon is not flat or not convex and is cut into pieces",
+                        "polygons are not flat or not convex and are cut into pieces");
+  tallies.left_out.tell(mended.told, "vertex of a polygon adds no area to it and is left out",
+                        "vertices of polygons add no area to them and are left out");
+  tallies.flat.tell(mended.told, "triangle has no area and is left out", "triangles have no area and are left out");
+  tallies.twice.tell(mended.told, "triangle of a mesh is there twice; one of the two is left out",
+                     "triangles of meshes are there more than once and are left out");
+  tallies.welded.tell(mended.told, "vertex of a mesh coincides with another and is welded to it",
+                      "vertices of meshes coincide with others and are welded to them");
+  return mended;
+}
+
+}  // namespace glimt
