@@ -34,8 +34,7 @@ struct Tally {
     count += n;
   }
   void tell(std::vector<std::string>& told, const char* one, const char* many) const {
-    if (count > 0)
-      told.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + "; the first: " + first);
+    if (count > 0) told.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + "; the first: " + first);
   }
 };
 
@@ -106,7 +105,9 @@ void drop_flat(Mesh& mesh) {
     const Corners t = all[i];
     if (left == 0) continue;
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    const auto edge = [&](std::size_t k) { return length(vertex(mesh, t[(k + 1) % 3]) - vertex(mesh, t[(k + 2) % 3])); };
+    const auto edge = [&](std::size_t k) {
+      return length(vertex(mesh, t[(k + 1) % 3]) - vertex(mesh, t[(k + 2) % 3]));
+    };
     const std::size_t middle = edge(0) >= edge(1) && edge(0) >= edge(2) ? 0 : edge(1) >= edge(2) ? 1 : 2;
     const int b = t[middle], c = t[(middle + 1) % 3], a = t[(middle + 2) % 3];
     const auto [begin, end] = with_edge.equal_range(directed(a, c));

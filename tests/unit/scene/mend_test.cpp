@@ -46,8 +46,8 @@ std::vector<dvec3> outline(const std::vector<std::array<double, 2>>& points) {
 struct Shape {
   std::string name;
   std::vector<std::array<double, 2>> points;
-  double area;           ///< by the shoelace formula
-  std::size_t at_most;   ///< pieces
+  double area;          ///< by the shoelace formula
+  std::size_t at_most;  ///< pieces
 };
 
 const std::vector<Shape> shapes{
@@ -56,16 +56,30 @@ const std::vector<Shape> shapes{
     {"arrow", {{0, 0}, {2, 1}, {0, 2}, {0.5, 1}}, 1.5, 2},
     {"L", {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, 5, 3},
     {"U", {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, 7, 4},
-    {"cross",
-     {{1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}, {1, 1}},
-     5, 5},
+    {"cross", {{1, 0}, {2, 0}, {2, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}, {1, 2}, {0, 2}, {0, 1}, {1, 1}}, 5, 5},
     {"comb",
-     {{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {5, 1}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1},
-      {1, 3}, {0, 3}},
-     7 + 8, 9},
+     {{0, 0},
+      {7, 0},
+      {7, 3},
+      {6, 3},
+      {6, 1},
+      {5, 1},
+      {5, 3},
+      {4, 3},
+      {4, 1},
+      {3, 1},
+      {3, 3},
+      {2, 3},
+      {2, 1},
+      {1, 1},
+      {1, 3},
+      {0, 3}},
+     7 + 8,
+     9},
     {"a frame, its hole reached by a cut",
      {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}},
-     8, 7},
+     8,
+     7},
     {"a spike along an edge", {{0, 0}, {2, 0}, {1, 0}, {1, 1}}, 0.5, 1},
     {"a spike outwards", {{0, 0}, {1, 0}, {1, 1}, {1, 2}, {1, 1}, {0, 1}}, 1, 1},
     {"a corner twice", {{0, 0}, {2, 0}, {2, 0}, {2, 2}, {0, 2}}, 4, 1},
@@ -133,7 +147,8 @@ TEST(ConvexPieces, RandomOutlines) {
 }
 
 TEST(Mend, PiecesKeepNameMaterialAndFlux) {
-  const Scene scene = scene_of({}, {{"first", "white", outline(shapes[0].points)}, {"L", "lamp", outline(shapes[3].points)},
+  const Scene scene = scene_of({}, {{"first", "white", outline(shapes[0].points)},
+                                    {"L", "lamp", outline(shapes[3].points)},
                                     {"last", "white", outline(shapes[2].points)}});
   const Mended mended = mend(scene);
   double area = 0;
@@ -151,7 +166,8 @@ TEST(Mend, PiecesKeepNameMaterialAndFlux) {
 TEST(Mend, ASoundSceneStaysAsItIs) {
   Mesh open = cube({2, 0, 0}, 1);
   open.triangles.pop_back();
-  const Scene scene = scene_of({{"s", "white"}}, {{"p", "white", outline(shapes[0].points)}}, {cube({}, 1), open, ball(6, 8)});
+  const Scene scene =
+      scene_of({{"s", "white"}}, {{"p", "white", outline(shapes[0].points)}}, {cube({}, 1), open, ball(6, 8)});
   const Mended mended = mend(scene);
   EXPECT_EQ(mended.scene, scene);
   EXPECT_EQ(mended.told, std::vector<std::string>{});
@@ -165,7 +181,8 @@ Mesh exploded(const Mesh& mesh, double noise = 0) {
   apart.vertices.clear();
   for (auto& t : apart.triangles)
     for (int& i : t) {
-      apart.vertices.push_back(mesh.vertices[static_cast<std::size_t>(i)] + dvec3{off(random), off(random), off(random)});
+      apart.vertices.push_back(mesh.vertices[static_cast<std::size_t>(i)] +
+                               dvec3{off(random), off(random), off(random)});
       i = static_cast<int>(apart.vertices.size()) - 1;
     }
   return apart;
@@ -184,7 +201,8 @@ TEST(Mend, CornersThatAreRepeatedAreWelded) {
       EXPECT_EQ(welded.vertices.size(), mesh.vertices.size());
       EXPECT_NEAR(signed_volume(welded), signed_volume(mesh), 1e-6 * std::abs(signed_volume(mesh)));
       ASSERT_EQ(mended.told.size(), 1u);
-      EXPECT_TRUE(mended.told[0].starts_with(std::to_string(apart.vertices.size() - mesh.vertices.size()) + " vertices"))
+      EXPECT_TRUE(
+          mended.told[0].starts_with(std::to_string(apart.vertices.size() - mesh.vertices.size()) + " vertices"))
           << mended.told[0];
       EXPECT_EQ(paths(scene_of({}, {}, {apart})), Paths{}) << "closed, so it may be of glass";
     }
@@ -250,8 +268,8 @@ TEST(Mend, TrianglesWithACornerTwiceOrThereTwiceGo) {
 
 // A picker's ray meets an outline that is not convex where it is, and not in its bays.
 TEST(Mend, ThePickerSeesTheShape) {
-  const Scene scene =
-      scene_of({}, {{"U", "white", {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}}});
+  const Scene scene = scene_of(
+      {}, {{"U", "white", {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}}});
   const auto meets = [&](double x, double y, double side) {
     return pick(scene, {{x, y, side}, {0, 0, -side}}).has_value();
   };
