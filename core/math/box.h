@@ -1,0 +1,17 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace glimt {
+
+/// Bounds with sides along the axes; of no points at first, so that `low` is above `high`.
+struct Box {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+  void add(const glm::dvec3& p) { low = min(low, p), high = max(high, p); }
+  double size() const { return length(high - low); }
+};
+
+}  // namespace glimt
