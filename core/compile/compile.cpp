@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "compile/coincide.h"
+#include "compile/eye.h"
 #include "compile/lowering.h"
 #include "material/lobes.h"
 #include "scene/file/scene_file.h"
@@ -215,8 +217,13 @@ void describe(Lowering& l) {
 CompiledScene compile(const Scene& as_edited) {
   if (const std::vector<Problem> problems = validate(as_edited); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
-  const auto [scene, mended] = mend(as_edited);
-  Lowering l{scene, find_reach(scene), {}, {}, {}, {}, {}, {}};
+  // What is rendered is in places not what was edited.
+  auto [scene, warnings] = mend(as_edited);
+  std::vector<std::string> compiled_in;
+  move_eye_off_surfaces(scene, warnings);
+  Reach reach = find_reach(scene);
+  if (separate_coincident(scene, reach, compiled_in, warnings)) reach = find_reach(scene);
+  Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;
@@ -227,7 +234,8 @@ CompiledScene compile(const Scene& as_edited) {
   l.out.camera_outside = l.reach.camera_outside;
   l.out.room_hides_lamps = l.reach.lamp_pierces_room;
   l.out.left_out = l.reach.left_out;
-  l.out.warnings = mended;
+  l.out.compiled_in = std::move(compiled_in);
+  l.out.warnings = std::move(warnings);
   l.out.warnings.insert(l.out.warnings.end(), l.reach.warnings.begin(), l.reach.warnings.end());
   lower_room(l);
   l.out.room_surfaces = static_cast<int>(l.surfaces.size());

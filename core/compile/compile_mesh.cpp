@@ -37,6 +37,12 @@ std::vector<HalfSpace> convex_planes(const Mesh& mesh) {
   return planes.size() < 4 ? std::vector<HalfSpace>{} : planes;
 }
 
+/// Where a solid stands on a side of the room, the room's plane does the work: with both, rounding would choose.
+bool in_wall(const Lowering& l, const HalfSpace& face) {
+  return std::ranges::any_of(l.reach.room,
+                             [&](const RoomFace& wall) { return same_plane(wall.inside, face, l.reach.tolerance); });
+}
+
 /// Closed convex meshes become planes where that gives the same hits. Returns false where it does not.
 bool lower_convex(Lowering& l, const Mesh& mesh, const Material& material, double eta, int first_surface) {
   const std::vector<HalfSpace> planes = convex_planes(mesh);
@@ -50,9 +56,7 @@ bool lower_convex(Lowering& l, const Mesh& mesh, const Material& material, doubl
 
   Solid solid{static_cast<int>(l.out.solid_planes.size()), 0, first_surface, 0, glass};
   for (const HalfSpace& h : planes) {
-    // Where the solid stands on a side of the room, the room's plane does the work: with both, rounding would choose.
-    if (std::any_of(l.reach.room.begin(), l.reach.room.end(),
-                    [&](const RoomFace& face) { return same_plane(face.inside, h, l.reach.tolerance); })) {
+    if (in_wall(l, h)) {
       l.out.left_out.push_back("a face of " + toml_string(mesh.name) + ", in the plane of a wall");
       continue;
     }
@@ -67,8 +71,7 @@ bool lower_convex(Lowering& l, const Mesh& mesh, const Material& material, doubl
   return true;
 }
 
-void lower_triangles(Lowering& l, const Mesh& mesh, const Material& material, double eta) {
-  const bool inside_out = transmits(material) && signed_volume(mesh) < 0;
+void lower_triangles(Lowering& l, const Mesh& mesh, const Material& material, double eta, bool inside_out) {
   for (const auto& t : mesh.triangles) {
     const std::vector<dvec3> v = triangle_vertices(mesh, t);
     const dvec3 n = plane_of(v).n * (inside_out ? -1.0 : 1.0);
@@ -81,12 +84,19 @@ void lower_triangles(Lowering& l, const Mesh& mesh, const Material& material, do
 }  // namespace
 
 void lower_meshes(Lowering& l) {
-  for (const Mesh& mesh : l.reach.meshes) {
+  for (Mesh& mesh : l.reach.meshes) {
     const Material& material = l.material(mesh.material);
     const double eta = transmits(material) ? relative_ior(l.scene, mesh) : 1;
     const int first_surface = static_cast<int>(l.surfaces.size());
     const bool convex = lower_convex(l, mesh, material, eta, first_surface);
-    if (!convex) lower_triangles(l, mesh, material, eta);
+    if (!convex) {
+      const bool inside_out = transmits(material) && signed_volume(mesh) < 0;
+      std::erase_if(mesh.triangles, [&](const auto& t) {
+        const HalfSpace plane = plane_of(triangle_vertices(mesh, t));
+        return in_wall(l, plane) || in_wall(l, {-plane.n, -plane.d});
+      });
+      lower_triangles(l, mesh, material, eta, inside_out);
+    }
     const int last_surface = static_cast<int>(l.surfaces.size()) - 1;
     std::vector<dvec3> vertices = mesh.vertices;
     for (dvec3& v : vertices) v -= l.origin;

@@ -7,6 +7,10 @@
 
 namespace glimt {
 
+/// How far apart surfaces must be to be two, metres: single precision keeps positions to about 2^-24 of the scene's
+/// size, and four bits more are what a hit point may be off.
+double position_tolerance(const Scene& scene);
+
 /// What of a scene the paths from its camera can reach.
 struct Reach {
   double tolerance = 0;  ///< metres; surfaces nearer to each other than this coincide

@@ -87,23 +87,23 @@ Comparison compare(const Image& x, const Image& reference) {
 
 namespace {
 
-constexpr int block = 8;
+constexpr int block_size = 8;
 
 /// Of a block of pixels.
 struct BlockSums {
-  std::array<double, 3> radiance{};                                ///< sum of all samples
-  std::array<std::array<double, 3>, block * block / 4> squares{};  ///< by 2x2 squares: sum of (h0 - h1)^2
+  std::array<double, 3> radiance{};                                          ///< sum of all samples
+  std::array<std::array<double, 3>, block_size * block_size / 4> squares{};  ///< by 2x2 squares: sum of (h0 - h1)^2
 };
 
 /// The blocks of one row of them, from pixel row y0 on.
 std::vector<BlockSums> blocks_of(const Film& film, int y0) {
-  std::vector<BlockSums> blocks(static_cast<std::size_t>((film.width() + block - 1) / block));
+  std::vector<BlockSums> blocks(static_cast<std::size_t>((film.width() + block_size - 1) / block_size));
   const double n0 = film.half_samples(0), n1 = film.half_samples(1);
-  for (int y = y0; y < std::min(y0 + block, film.height()); ++y)
+  for (int y = y0; y < std::min(y0 + block_size, film.height()); ++y)
     for (int x = 0; x < film.width(); ++x) {
       const auto a = film.half_sum(y * film.width() + x, 0), b = film.half_sum(y * film.width() + x, 1);
-      BlockSums& sums = blocks[static_cast<std::size_t>(x / block)];
-      const int square = (y - y0) / 2 * (block / 2) + x % block / 2;
+      BlockSums& sums = blocks[static_cast<std::size_t>(x / block_size)];
+      const int square = (y - y0) / 2 * (block_size / 2) + x % block_size / 2;
       auto& squares = sums.squares[static_cast<std::size_t>(square)];
       for (std::size_t c = 0; c < 3; ++c) {
         const double difference = a[c] / n0 - b[c] / n1;
@@ -132,7 +132,7 @@ ErrorEstimate estimate_error(const Film& film) {
   if (film.samples() < 2) return {};
   const double n0 = film.half_samples(0), n1 = film.half_samples(1), n = n0 + n1;
   const double scaled_floor = scaled_dark(mean_of(film));
-  const int block_rows = (film.height() + block - 1) / block;
+  const int block_rows = (film.height() + block_size - 1) / block_size;
   struct RowSums {
     double relmse = 0, scaled = 0, scaled_squares = 0;
   };
@@ -142,11 +142,11 @@ ErrorEstimate estimate_error(const Film& film) {
 #pragma omp parallel for if (film.width() * film.height() > (1 << 16))
   for (int row = 0; row < block_rows; ++row) {
     RowSums& total = rows[static_cast<std::size_t>(row)];
-    const int height = std::min(block, film.height() - row * block);
+    const int height = std::min(block_size, film.height() - row * block_size);
     int x = 0;
-    for (const BlockSums& sums : blocks_of(film, row * block)) {
-      const double samples = n * height * std::min(block, film.width() - x);
-      x += block;
+    for (const BlockSums& sums : blocks_of(film, row * block_size)) {
+      const double samples = n * height * std::min(block_size, film.width() - x);
+      x += block_size;
       for (const auto& squares : sums.squares) {
         double scaled = 0;
         for (std::size_t c = 0; c < 3; ++c) {

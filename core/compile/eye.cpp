@@ -1,0 +1,71 @@
+#include "compile/eye.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "compile/reach.h"
+#include "scene/file/text.h"
+#include "scene/geometry/mesh_measures.h"
+#include "scene/surroundings.h"
+
+namespace glimt {
+namespace {
+
+using glm::dvec3;
+
+/// In tolerances of positions.
+constexpr double step_off = 4;
+/// Surfaces that one eye may lie on.
+constexpr int most_surfaces = 16;
+
+struct NearestSurface {
+  double distance = std::numeric_limits<double>::infinity();
+  double height = 0;  ///< of the eye over the surface's plane, to its front
+  dvec3 front{0};     ///< unit
+  const std::string* name = nullptr;
+};
+
+NearestSurface nearest_surface(const Scene& scene, const dvec3& eye) {
+  NearestSurface nearest;
+  const auto consider = [&](double distance, double height, const dvec3& front, const std::string& name) {
+    if (distance < nearest.distance) nearest = {distance, height, front, &name};
+  };
+  const auto consider_face = [&](const std::vector<dvec3>& v, const std::string& name) {
+    const HalfSpace plane = plane_of(v);
+    const double height = dot(plane.n, eye) - plane.d;
+    if (std::abs(height) < nearest.distance) consider(distance_to_polygon(eye, v), height, plane.n, name);
+  };
+  for (const Polygon& p : scene.polygons) consider_face(p.vertices, p.name);
+  for (const Mesh& m : scene.meshes)
+    for (const auto& t : m.triangles) consider_face(triangle_vertices(m, t), m.name);
+  for (const Sphere& s : scene.spheres) {
+    const dvec3 way = eye - s.center;
+    const double height = length(way) - s.radius;
+    if (length(way) > 0) consider(std::abs(height), height, normalize(way), s.name);
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void move_eye_off_surfaces(Scene& scene, std::vector<std::string>& told) {
+  Camera& camera = scene.camera;
+  const double tolerance = position_tolerance(scene);
+  const dvec3 begun = camera.eye, view = normalize(camera.look_at - camera.eye);
+  std::string first;
+  for (int i = 0; i < most_surfaces; ++i) {
+    const NearestSurface nearest = nearest_surface(scene, camera.eye);
+    if (!(nearest.distance <= tolerance)) break;
+    if (i == 0) first = *nearest.name;
+    const double side = dot(nearest.front, view) < -1e-12 ? -1 : 1;
+    camera.eye += nearest.front * (side * step_off * tolerance - nearest.height);
+  }
+  if (camera.eye == begun) return;
+  camera.look_at += camera.eye - begun;
+  told.push_back("the camera is on the surface " + toml_string(first) + ": it is moved off it by " +
+                 number_text(length(camera.eye - begun)) + " m, to the side it looks to");
+}
+
+}  // namespace glimt
