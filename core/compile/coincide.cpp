@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 #include <map>
 #include <numeric>
 #include <set>
@@ -103,8 +103,7 @@ class Coincidences {
   }
 
   bool lies_in(const std::vector<dvec3>& outline, const HalfSpace& plane) const {
-    return std::ranges::all_of(
-        outline, [&](const dvec3& v) { return std::abs(dot(plane.n, v) - plane.d) <= coincident * size_; });
+    return std::ranges::all_of(outline, [&](const dvec3& v) { return std::abs(dot(plane.n, v) - plane.d) <= near(); });
   }
 
   /// Square metres; 0 for pieces that are not in one plane.
@@ -162,6 +161,7 @@ class Coincidences {
     return a.object != b.object || dot(a.plane.n, b.plane.n) < 0;
   }
 
+  /// A sweep along x. Pieces of one object that face one way are not compared with each other.
   void find_pairs_in(const std::vector<int>& cell) {
     if (std::ranges::none_of(cell, [&](int i) { return may_coincide(piece(cell[0]), piece(i)); })) return;
     struct Bounded {
@@ -175,18 +175,31 @@ class Coincidences {
       all.push_back({box, i});
     }
     std::ranges::stable_sort(all, {}, [](const Bounded& b) { return b.box.low.x; });
-    const double reach = coincident * size_;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      for (std::size_t k = i + 1; k < all.size() && all[k].box.low.x <= all[i].box.high.x + reach; ++k) {
-        const auto [a, b] = std::minmax({all[i].piece, all[k].piece});
-        if (!may_coincide(piece(a), piece(b))) continue;
-        const Box &p = all[i].box, &q = all[k].box;
-        if (p.low.y > q.high.y + reach || q.low.y > p.high.y + reach || p.low.z > q.high.z + reach ||
-            q.low.z > p.high.z + reach)
+    std::map<std::pair<int, bool>, std::vector<const Bounded*>> open;  // by object and side
+    for (const Bounded& next : all) {
+      const std::pair own{piece(next.piece).object, dot(piece(next.piece).plane.n, piece(cell[0]).plane.n) > 0};
+      for (auto others = open.begin(); others != open.end();) {
+        if (others->first == own) {
+          ++others;
           continue;
-        const double least = std::min(area_of(outline(piece(a))), area_of(outline(piece(b))));
-        if (common_area(piece(a), piece(b)) > reach_.tolerance * std::sqrt(least)) pairs_.emplace(a, b);
+        }
+        std::erase_if(others->second, [&](const Bounded* b) { return b->box.high.x + near() < next.box.low.x; });
+        for (const Bounded* other : others->second)
+          if (meet(other->box, next.box)) note_pair(other->piece, next.piece);
+        others = others->second.empty() ? open.erase(others) : std::next(others);
       }
+      open[own].push_back(&next);
+    }
+  }
+
+  double near() const { return coincident * size_; }
+  bool meet(const Box& a, const Box& b) const {
+    return all(lessThanEqual(a.low, b.high + near())) && all(lessThanEqual(b.low, a.high + near()));
+  }
+
+  void note_pair(int a, int b) {
+    const double least = std::min(area_of(outline(piece(a))), area_of(outline(piece(b))));
+    if (common_area(piece(a), piece(b)) > reach_.tolerance * std::sqrt(least)) pairs_.insert(std::minmax({a, b}));
   }
 
   /// The same polygon or mesh of one material, facing the same way.
@@ -199,7 +212,7 @@ class Coincidences {
     if (!is_mesh(a.object) || !is_mesh(b.object)) return false;
     return mesh(a.object).triangles == mesh(b.object).triangles &&
            std::ranges::equal(mesh(a.object).vertices, mesh(b.object).vertices,
-                              [&](const dvec3& v, const dvec3& w) { return length(v - w) <= coincident * size_; });
+                              [&](const dvec3& v, const dvec3& w) { return length(v - w) <= near(); });
   }
 
   void find_repeated() {
@@ -229,7 +242,7 @@ class Coincidences {
     if (is_mesh(s.object) && is_closed(mesh(s.object))) {
       const double volume = signed_volume(mesh(s.object));
       // One without thickness is a sheet with two fronts.
-      made.body = std::abs(volume) > made.area * coincident * size_;
+      made.body = std::abs(volume) > made.area * near();
       const bool around =
           !transmits(m) && reach_.inside && std::abs(winding_number(mesh(s.object), *reach_.inside)) > 0.5;
       if (made.body && (volume < 0) != around) made.plane = {-made.plane.n, -made.plane.d};
