@@ -324,8 +324,9 @@ class Coincidences {
         continue;
       }
       // Parts of one mesh that lie in each other may have vertices in common.
-      const bool alone = std::ranges::none_of(
-          related_, [&](const auto& r) { return part(r.first).object == object && part(r.second).object == object; });
+      const bool alone = std::ranges::none_of(related_, [&, own = object](const auto& r) {
+        return part(r.first).object == own && part(r.second).object == own;
+      });
       Mesh& moving = scene_.meshes[static_cast<std::size_t>(object - polygons_)];
       if (parts[0]->body && alone)
         move_faces(moving, parts);
@@ -409,12 +410,10 @@ class Coincidences {
   }
 
   void drop_repeated() {
-    for (auto it = repeated_.rbegin(); it != repeated_.rend(); ++it) {
-      if (is_mesh(it->first))
-        scene_.meshes.erase(scene_.meshes.begin() + (it->first - polygons_));
-      else
-        scene_.polygons.erase(scene_.polygons.begin() + it->first);
-    }
+    int object = 0;
+    const auto again = [&](const auto&) { return repeated_.contains(object++); };
+    std::erase_if(scene_.polygons, again);
+    std::erase_if(scene_.meshes, again);
   }
 
   Scene& scene_;
@@ -484,8 +483,8 @@ bool separate_spheres(Scene& scene, const Reach& reach, std::vector<std::string>
   if (pairs > 0)
     told.push_back(std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") + " of spheres that coincide, " +
                    number_text(reach.tolerance) + " m apart; the first: " + first_pair);
-  for (auto it = repeated.rbegin(); it != repeated.rend(); ++it)
-    scene.spheres.erase(scene.spheres.begin() + static_cast<std::ptrdiff_t>(*it));
+  std::size_t next = 0;
+  std::erase_if(scene.spheres, [&](const Sphere&) { return repeated.contains(next++); });
   return !repeated.empty() || pairs > 0;
 }
 

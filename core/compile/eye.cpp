@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <string_view>
 
 #include "compile/reach.h"
 #include "scene/file/text.h"
@@ -24,13 +25,13 @@ struct NearestSurface {
   double distance = std::numeric_limits<double>::infinity();
   double height = 0;  ///< of the eye over the surface's plane, to its front
   dvec3 front{0};     ///< unit
-  const std::string* name = nullptr;
+  std::string_view name;
 };
 
 NearestSurface nearest_surface(const Scene& scene, const dvec3& eye) {
   NearestSurface nearest;
   const auto consider = [&](double distance, double height, const dvec3& front, const std::string& name) {
-    if (distance < nearest.distance) nearest = {distance, height, front, &name};
+    if (distance < nearest.distance) nearest = {distance, height, front, name};
   };
   const auto consider_face = [&](const std::vector<dvec3>& v, const std::string& name) {
     const HalfSpace plane = plane_of(v);
@@ -58,7 +59,7 @@ void move_eye_off_surfaces(Scene& scene, std::vector<std::string>& told) {
   for (int i = 0; i < most_surfaces; ++i) {
     const NearestSurface nearest = nearest_surface(scene, camera.eye);
     if (!(nearest.distance <= tolerance)) break;
-    if (i == 0) first = *nearest.name;
+    if (i == 0) first = nearest.name;
     const double side = dot(nearest.front, view) < -1e-12 ? -1 : 1;
     camera.eye += nearest.front * (side * step_off * tolerance - nearest.height);
   }

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "pictures.h"
+#include "scene/file/scene_file.h"
 #include "scene_parts.h"
 
 using namespace glimt;
@@ -439,6 +440,112 @@ TEST_P(EyeOn, SeesWhatItSeesFromBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EyeOn, testing::ValuesIn(eyes), [](const auto& c) { return title(c.param.name); });
+
+// Scenes whose right mean is known to all its digits; see the files.
+
+struct File {
+  const char* name;
+  double mean, half_digit;
+};
+
+std::ostream& operator<<(std::ostream& out, const File& f) { return out << f.name; }
+
+class CoincideFile : public testing::TestWithParam<File> {};
+
+TEST_P(CoincideFile, HasTheRightMean) {
+  const auto& [name, mean, half_digit] = GetParam();
+  Scene scene = read_scene(std::string(GLIMT_TESTS_DIR "/data/coincide/") + name + ".toml");
+  scene.image = {32, 32};
+  for (const Way& way : ways) {
+    const Estimate found = pictures(scene, way, 32).overall();
+    std::cout << way.name << " " << found.mean << " +- " << found.error << "\n";
+    const double nearest = std::clamp(found.mean, mean - half_digit, mean + half_digit);
+    EXPECT_GT(likelihood(found, nearest), sidak(alpha, 4)) << way.name;
+    EXPECT_LT(found.error, 0.03 * mean) << "too much noise to tell";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, CoincideFile,
+                         testing::Values(File{"dup_quad_lamp", 0.0525, 5e-5}, File{"back_to_back", 0.1049, 5e-5},
+                                         File{"quad_lamp_on_quad", 0.1304, 5e-5}, File{"eye_on_wall", 0.3273, 5e-5},
+                                         File{"glass_cubes_touch", 1, 0}, File{"glass_cube_split_vertices", 1, 0}),
+                         [](const auto& f) { return std::string(f.param.name); });
+
+// Geometry that is mended: the picture is that of the scene as it should have been.
+
+struct MendedCase {
+  const char* name;
+  Scene mended, sound;
+};
+
+/// Every triangle has corners of its own.
+Mesh exploded(const Mesh& mesh) {
+  Mesh apart{mesh.name, mesh.material, {}, {}};
+  for (const auto& t : mesh.triangles) {
+    const int first = static_cast<int>(apart.vertices.size());
+    for (const int i : t) apart.vertices.push_back(mesh.vertices[static_cast<std::size_t>(i)]);
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  return apart;
+}
+
+/// With a corner in the middle of an edge for one of the two triangles there, and a triangle of no area between them.
+Mesh needled(Mesh mesh) {
+  const auto [a, b, c] = mesh.triangles[0];
+  const auto at = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
+  const int middle = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.push_back((at(a) + at(b)) / 2.0);
+  mesh.triangles[0] = {a, middle, c};
+  mesh.triangles.push_back({middle, b, c});
+  mesh.triangles.push_back({a, b, middle});
+  return mesh;
+}
+
+std::vector<MendedCase> mended_cases() {
+  const Mesh step = stairs("s", "glass", {-0.5, -1, -0.5}), cube = block("b", "dense", {-0.5, -1, -0.5}, {0.5, 0, 0.5});
+  const std::vector<dvec3> l{{-1, 1, 1}, {1, 1, 1}, {1, 1, 0}, {0, 1, 0}, {0, 1, -1}, {-1, 1, -1}};
+  const std::vector<dvec3> long_part{{-1, 1, 1}, {1, 1, 1}, {1, 1, 0}, {-1, 1, 0}},
+      short_part{{-1, 1, 0}, {0, 1, 0}, {0, 1, -1}, {-1, 1, -1}};
+  std::vector<dvec3> bent = square("", "", 1, 1).vertices, spiked = l;
+  bent[2].y += 1e-4;
+  spiked.insert(spiked.begin() + 2, {{3, 1, 1}, {1, 1, 1}});
+  std::vector<MendedCase> all;
+  for (const std::string material : {"lamp", "white", "mirror"}) {
+    const std::vector<Sphere> light{material == "lamp" ? Sphere{"w", "white", {0, -1, 0}, 1} : bulb()};
+    const auto scene = [&](const std::vector<std::vector<dvec3>>& outlines) {
+      std::vector<Polygon> polygons;
+      for (const auto& v : outlines) polygons.push_back({"", material, v});
+      return with(room(), polygons, {}, light);
+    };
+    all.push_back({"an L", scene({l}), scene({long_part, short_part})});
+    all.push_back({"an L with a spike", scene({spiked}), scene({long_part, short_part})});
+    all.push_back({"a square with a corner off its plane", scene({bent}), scene({square("", "", 1, 1).vertices})});
+  }
+  for (const Mesh& mesh : {step, cube}) {
+    all.push_back({"glass with corners for each triangle", with(room(), {}, {exploded(mesh)}, {bulb()}),
+                   with(room(), {}, {mesh}, {bulb()})});
+    all.push_back({"glass with a triangle of no area", with(room(), {}, {needled(mesh)}, {bulb()}),
+                   with(room(), {}, {mesh}, {bulb()})});
+  }
+  return all;
+}
+
+TEST(MendedGeometry, LooksLikeTheGeometryItShouldHaveBeen) {
+  const std::vector<MendedCase> all = mended_cases();
+  for (const MendedCase& c : all) {
+    SCOPED_TRACE(c.name);
+    EXPECT_FALSE(compile(c.mended).warnings.empty());
+    EXPECT_TRUE(compile(c.sound).warnings.empty());
+    const Estimate truth = pictures(c.sound, ways[0], 16).overall();
+    for (const Way& way : {ways[0], ways[3]}) {
+      const Estimate found = pictures(c.mended, way, 16).overall();
+      std::cout << c.name << ", " << way.name << " " << found.mean << " +- " << found.error << ", " << truth.mean
+                << "\n";
+      EXPECT_GT(likelihood(found, truth), sidak(alpha, 2 * static_cast<double>(all.size()))) << way.name;
+      EXPECT_LT(found.error, 0.04 * truth.mean) << "too much noise to tell";
+    }
+  }
+}
 
 // What is told, and what stays as it is.
 

@@ -60,6 +60,7 @@ std::vector<double> heights(const std::vector<dvec3>& v, const dvec3& normal) {
   dvec3 centre{0};
   for (const dvec3& p : v) centre += p / static_cast<double>(v.size());
   std::vector<double> off;
+  off.reserve(v.size());
   for (const dvec3& p : v) off.push_back(std::abs(dot(normal, p - centre)));
   return off;
 }
@@ -204,6 +205,7 @@ ConvexPieces convex_pieces(const std::vector<dvec3>& outline) {
   const dvec3 axis = std::abs(normal.x) < 0.6 ? dvec3{1, 0, 0} : dvec3{0, 1, 0};
   const dvec3 right = normalize(cross(axis, normal)), up = cross(normal, right);
   std::vector<dvec2> flat;
+  flat.reserve(v.size());
   for (const dvec3& p : v) flat.emplace_back(dot(p - v[0], right), dot(p - v[0], up));
   const double least = degenerate * size * size;
   std::optional<std::vector<Ring>> pieces;
