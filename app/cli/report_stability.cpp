@@ -6,6 +6,7 @@
 #include "cli/report_parts.h"
 #include "compile/compiled_scene.h"
 #include "film/statistics.h"
+#include "material/conductor.h"
 #include "material/glass.h"
 #include "material/light.h"
 #include "material/oren_nayar.h"
@@ -55,12 +56,42 @@ void set_gap(Scene& scene, double gap) {
 void set_roughness(Scene& scene, double roughness) { material(scene, "clay").set(OrenNayar::roughness, roughness); }
 void set_ior(Scene& scene, double ior) { material(scene, "glass").set(Glass::ior, ior); }
 
+/// A small lamp: its highlight is a few pixels wide where the metal is smooth.
+void set_metal(Scene& scene, double roughness) {
+  set_lamp_side(scene, 0.2);
+  material(scene, "gold").set(Conductor::roughness, roughness);
+}
+
+/// Metal walls meet behind the sphere, so that light goes to and fro between them.
+void set_metal_corner(Scene& scene, double roughness) {
+  set_metal(scene, roughness);
+  for (Polygon& p : scene.polygons)
+    if (p.name == "wall 3" || p.name == "wall 4") p.material = "gold";
+}
+
+/// The sphere is seen in the mirror that the wall on the left is.
+void set_metal_in_mirror(Scene& scene, double roughness) {
+  set_metal(scene, roughness);
+  std::ranges::find(scene.polygons, "wall 2", &Polygon::name)->material = "mirror";
+}
+
+/// The eye so high above a floor of metal.
+void set_grazing_eye(Scene& scene, double height) {
+  set_metal(scene, 0.2);
+  Polygon& floor = *std::ranges::find(scene.polygons, "floor", &Polygon::name);
+  floor.material = "gold";
+  scene.camera.eye.y = floor.vertices.front().y + height;
+  scene.camera.look_at.y = scene.camera.eye.y;
+}
+
 void set_reflectance(Scene& scene, double reflectance) {
   for (Material& m : scene.materials)
     if (is_diffuse(m)) m.set(Matt::reflectance, glm::dvec3{reflectance});
 }
 
 const std::vector<Difficulty>& difficulties() {
+  const ChartAxis roughness_of_metal{"roughness of the metal; the lamp is 0.2 m wide", true};
+  const std::vector<double> roughnesses{0.001, 0.03, 0.1, 0.2, 0.3, 0.5, 1};
   static const std::vector<Difficulty> list{
       {"Size of the lamp",
        {"side of the square lamp of constant power, metres", true},
@@ -83,6 +114,14 @@ const std::vector<Difficulty>& difficulties() {
        "clay",
        {0.1, 0.3, 0.5, 0.7, 0.85, 0.95},
        set_reflectance},
+      {"Roughness of metal", roughness_of_metal, "gold", roughnesses, set_metal},
+      {"A corner of metal", roughness_of_metal, "gold", roughnesses, set_metal_corner},
+      {"Metal in a mirror", roughness_of_metal, "gold", roughnesses, set_metal_in_mirror},
+      {"A highlight at grazing angles",
+       {"height of the eye above a floor of metal, metres", true},
+       "gold",
+       {0.05, 0.1, 0.3, 1, 3},
+       set_grazing_eye},
   };
   return list;
 }

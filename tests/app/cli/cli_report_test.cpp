@@ -39,7 +39,7 @@ TEST_F(ReportCommand, WritesOnePageThatHoldsEverything) {
   for (const char* part : {"Table 1.", "Table 2.", "Table 3.", "Load balance", "caustics left out", "Size of the lamp",
                            "Distance to the lamp", "Roughness", "Refractive index", "Reflectance"})
     EXPECT_TRUE(has(page, part)) << part;
-  EXPECT_EQ(count(page, "<svg "), 6U) << "one chart of time, five of stability";
+  EXPECT_EQ(count(page, "<svg "), 10U) << "one chart of time, nine of stability";
   EXPECT_EQ(count(page, "<img "), 34U) << "2 + 4 + 4 + 3 + 4 pictures in two ways";
   EXPECT_EQ(count(page, "<img "), count(page, "src='data:image/png;base64,"));
   EXPECT_EQ(count(page, "http"), count(page, "<svg xmlns='http://www.w3.org/2000/svg'")) << "nothing is fetched";
