@@ -123,7 +123,7 @@ void wait(double next_picture, bool settled) {
 /// The picture is of the scene as edited.
 bool answered(const ViewerState& state) { return state.frame && state.frame->version >= state.version; }
 
-/// Remembers the window for its next start. Not to be able to is no reason to fail.
+/// Remembers the window for its next start. Where that cannot be written, the program goes on.
 void remember(const Window& window, const ViewerState& state) {
   const auto file = window_settings_file();
   if (file.empty()) return;

@@ -22,7 +22,7 @@ struct Image {
 };
 
 /// Sums of radiance per pixel in two independent halves: sample 2k + h of a pixel is sample k of half h. Sums are
-/// 64-bit fixed point, so they depend neither on the order of the samples nor on their number, and never drift.
+/// 64-bit fixed point: they are the same in any order of the samples, and do not drift however many there are.
 class Film {
  public:
   Film() = default;

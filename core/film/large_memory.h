@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <new>
 
-/// Memory of films and pictures. Pages of 4 kB, to be given and to be given back, take a film longer than a path
-/// through each of its pixels; huge ones, where the system has them, do not.
+/// Memory of films and pictures. The system hands out memory in pages. With pages of 4 kB this takes longer than
+/// tracing a path through every pixel of the film. With huge pages, where the system has them, it takes no time.
 namespace glimt {
 
 /// Asks for huge pages in memory that has not been written to yet.
@@ -14,8 +14,8 @@ void use_huge_pages(void* memory, std::size_t bytes);
 void* allocate_zeros(std::size_t bytes);
 void free_zeros(void* memory, std::size_t bytes);
 
-/// Allocator of memory that is zero without being written to, so that a large film is there at once and its pages come
-/// as they are needed.
+/// Allocates memory that the system has filled with zeros. Nothing writes to it first, so a large film is there at once
+/// and takes a page only when a sample is added to it.
 template <class T>
 struct ZeroedMemory {
   using value_type = T;

@@ -19,8 +19,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double pass_seconds = 0.04;  ///< between new images; edits do not wait for it
 constexpr int preview_paths =
     60'000;  ///< of the coarse image that answers an edit within a frame: about 10 ms on two cores
-/// After a preview the next edit is awaited for so long before a film is made: while a slider is dragged, previews come
-/// alone.
+/// After a preview the session waits so long for the next edit before it makes a film. So while a slider is dragged it
+/// shows previews only.
 constexpr auto edit_pause = std::chrono::milliseconds(20);
 constexpr int first_estimate = 8;  ///< samples before the estimated error is trusted as a target
 

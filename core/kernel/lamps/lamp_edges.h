@@ -11,8 +11,8 @@
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
-/// Pixels that an edge of a lamp crosses. A lamp is so bright beside what it lights that there the error is nearly all
-/// in which of a pixel's samples see it; so each sample asks with many rays.
+/// Pixels that an edge of a lamp crosses. A lamp is much brighter than what it lights, so nearly all of the error there
+/// comes from how many samples of the pixel see the lamp. Each sample therefore sends many rays to ask.
 namespace glimt {
 
 template <class F, Features features>
@@ -27,7 +27,7 @@ class LampEdges {
   LampEdges(const CompiledScene& scene, const Squares<F>& squares)
       : scene_(scene), surfaces_(scene), squares_(squares) {}
 
-  /// In place of the lamp that the one ray of each path sees there, or does not: the mean over many rays.
+  /// Replaces what the one ray of each path sees of the lamp by the mean over many rays.
   void refine(PathSums<F>& sums) const {
     const PathBlock& block = squares_.whole;
     std::array<std::int32_t, lane_count<F>> xs{}, ys{}, samples{};

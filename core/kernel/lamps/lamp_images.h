@@ -7,9 +7,9 @@
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
-/// Small lamps as the camera sees them, straight or by way of mirrors and glass: specks that few camera rays meet. In
-/// the rectangles of the image that hold them camera paths do not count what they meet of lamps before the first
-/// diffuse surface; rays through these rectangles alone do.
+/// Small lamps that the camera sees, straight or by way of mirrors and glass, are specks that few camera rays meet. They
+/// lie in known rectangles of the image. There, camera paths do not count the lamps that they meet before the first
+/// diffuse surface. Rays that go through these rectangles alone count them.
 namespace glimt {
 
 /// Whether a direction from the eye, of unit length, goes through one of the rectangles.
