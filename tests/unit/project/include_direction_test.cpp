@@ -1,6 +1,7 @@
 // Includes point one way: math <- scene <- material <- lamp <- compile <- kernel <- film <- render <- app. Only
 // core/math/lanes.h names xsimd. Core knows no window, no OpenGL and no command line. The maps in core/README.md and
-// app/README.md name every folder. No two headers give two types the same name.
+// app/README.md name every folder. No two headers give two types the same name. Only the list of materials includes a
+// material.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -140,6 +141,30 @@ TEST(Headers, NoTwoDefineATypeOfTheSameName) {
   EXPECT_GT(defined_in.size(), 100u) << "the headers were not found under " << root;
   EXPECT_EQ(types_of("struct Box : Shape {\n  struct Inner {\n};\nenum class Kind : int {\n"),
             (std::vector<std::string>{"Box", "Kind"}));
+}
+
+/// Names of the headers that a text includes from core/material/.
+std::set<std::string> materials_in(const std::string& text) {
+  static const std::regex include("^#include \"material/(\\w+\\.h)\"", std::regex::multiline);
+  std::set<std::string> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), include), end; i != end; ++i) found.insert((*i)[1]);
+  return found;
+}
+
+// So a new material is its own file and a line in the list. The report page has scenes of its own to change.
+TEST(Materials, AreKnownByTheirListAlone) {
+  const std::set<std::string> materials = materials_in(read(root / "core/material/list.h"));
+  EXPECT_GT(materials.size(), 5u);
+  for (const char* part : {"core", "app"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / part)) {
+      const std::string path = fs::relative(entry.path(), root).generic_string();
+      const std::string ending = entry.path().extension().string();
+      if ((ending != ".h" && ending != ".cpp") || path.starts_with("core/material/") ||
+          path.starts_with("app/cli/report_"))
+        continue;
+      for (const std::string& name : materials_in(read(entry.path())))
+        EXPECT_FALSE(materials.contains(name)) << path << " includes material/" << name;
+    }
 }
 
 TEST(IncludeDirection, AllowsIncludesFromBelowAndBeside) {
