@@ -33,11 +33,14 @@ Goal goal_of(const RenderOptions& options, const Settings& settings) {
   return {.spp = settings.spp};
 }
 
+/// On standard output, or beside it where the picture goes there.
 void print_summary(const RenderOptions& options, const Film& film, double seconds, double estimate) {
   const double paths = static_cast<double>(film.width()) * film.height() * film.samples();
-  std::printf("%s: %d spp in %.2f s, %.1f Mpaths/s, estimated relmse ", options.out.c_str(), film.samples(), seconds,
-              paths / seconds / 1e6);
-  std::printf(film.samples() < 2 ? "unknown from one sample\n" : "%.3g\n", estimate);
+  std::FILE* const stream = options.out == "-" ? stderr : stdout;
+  const std::string name = options.out == "-" ? "standard output" : options.out.string();
+  std::fprintf(stream, "%s: %d spp in %.2f s, %.1f Mpaths/s, estimated relmse ", name.c_str(), film.samples(), seconds,
+               paths / seconds / 1e6);
+  std::fprintf(stream, film.samples() < 2 ? "unknown from one sample\n" : "%.3g\n", estimate);
 }
 
 void warn_of_counters(const Film& film) {

@@ -113,8 +113,9 @@ CLI::Option* add_file_option(CLI::App& command, const std::string& name, std::fi
 void add_render_options(CLI::App& command, RenderOptions& options) {
   add_scene_options(command, options);
   command
-      .add_option("-o,--output", options.out,
-                  "Image to write: .png (displayed picture), .exr or .pfm (linear radiance)")
+      .add_option(
+          "-o,--output", options.out,
+          "Image to write: .png (displayed picture), .exr or .pfm (linear radiance); -: a PNG on standard output")
       ->required()
       ->type_name("FILE")
       ->check(message_of([](const std::string& file) { check_writable(file); }));

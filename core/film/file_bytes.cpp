@@ -78,6 +78,7 @@ fs::path resolved(const fs::path& file) {
 }  // namespace
 
 void check_replaceable(const fs::path& file) {
+  if (file == "-") return;
   const fs::path target = resolved(file);
   if (!target.has_filename()) fail(file, "names no file");
   std::error_code error;
@@ -95,6 +96,11 @@ void check_replaceable(const fs::path& file) {
 }
 
 void replace_file(const fs::path& file, std::string_view bytes) {
+  if (file == "-") {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+      fail("standard output", "cannot be written: " + reason(errno));
+    return;
+  }
   check_replaceable(file);
   TemporaryFile temporary(resolved(file));
   temporary.write(bytes);

@@ -4,7 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// Whole files at once. All throw ImageFileError (image_file.h) with a message that names the file.
+/// Whole files at once. The name "-" writes to standard output. All throw ImageFileError (image_file.h) with a message
+/// that names the file.
 namespace glimt {
 
 /// Throws where `file` cannot be created or replaced; leaves no trace.

@@ -1,5 +1,7 @@
 #include "film/image_file.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <new>
@@ -14,6 +16,7 @@ namespace {
 enum class Format { png, exr, pfm };
 
 Format format_of(const std::filesystem::path& file) {
+  if (file == "-") return Format::png;
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".png") return Format::png;
@@ -41,6 +44,8 @@ auto naming(const std::filesystem::path& file, F f) {
 
 void check_writable(const std::filesystem::path& file) {
   format_of(file);
+  if (file == "-" && isatty(STDOUT_FILENO) != 0)
+    throw ImageFileError("standard output is a terminal, which cannot show a PNG: pipe it, or name a file");
   check_replaceable(file);
 }
 

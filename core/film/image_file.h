@@ -21,8 +21,8 @@ struct ImageFileError : std::runtime_error {
 /// fields ("exposure", "tone", "view").
 using Metadata = std::map<std::string, std::string>;
 
-/// Throws ImageFileError at once where `file` has an unknown ending (.png, .exr, .pfm) or cannot be written there: to
-/// be asked before rendering starts.
+/// Throws ImageFileError at once where `file` has an unknown ending (.png, .exr, .pfm; "-" is a PNG on standard output)
+/// or cannot be written there: to be asked before rendering starts.
 void check_writable(const std::filesystem::path& file);
 
 /// Writes by the ending. .png: the displayed picture, 8-bit sRGB. .exr: R, G, B the mean radiance and error.R, error.G,

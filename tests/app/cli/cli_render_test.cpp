@@ -216,6 +216,19 @@ TEST_F(Render, PipedOutputHoldsNoProgress) {
   EXPECT_FALSE(has(result.out, "\r") || has(result.out, "\x1b") || has(result.out, "ETA")) << result.out;
 }
 
+TEST_F(Render, DashIsStandardOutput) {
+  ASSERT_EQ(render("a.png", {"--spp", "2"}).status, 0);
+  const Result result = render("-", {"--spp", "2"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(has(result.err, "2 spp")) << "the summary is beside the picture: " << result.err;
+  write("b.png", result.out);
+  EXPECT_EQ(png_pixels(folder / "a.png"), png_pixels(folder / "b.png"));
+  EXPECT_EQ(files(), 2u);
+  const Result shown = program::run_on_terminal({"render", scene, "-o", "-", "--size", "24x16"}, folder);
+  EXPECT_EQ(shown.status, 2);
+  EXPECT_TRUE(has(shown.out, "terminal")) << shown.out;
+}
+
 TEST_F(Render, QuietSaysNothing) {
   const Result result = render("a.png", {"--spp", "2", "--quiet"});
   EXPECT_EQ(result.status, 0);
