@@ -147,6 +147,7 @@ class Drawing {
     return "<svg xmlns='http://www.w3.org/2000/svg' width='" + size + "' viewBox='0 0 " + formatted(width, "%.0f") +
            " " + formatted(height_, "%.0f") +
            "' font-family='Helvetica, Arial, sans-serif' font-size='13' fill='#222'>\n" +
+           (chart_.made_of.empty() ? "" : "<metadata>" + escaped(chart_.made_of) + "</metadata>\n") +
            "<rect width='100%' height='100%' fill='#fff'/>\n<clipPath id='plot'><rect x='" + formatted(left) + "' y='" +
            formatted(top) + "' width='" + formatted(plot_width) + "' height='" + formatted(plot_height) +
            "'/></clipPath>\n" + body + "</svg>\n";

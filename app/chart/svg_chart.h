@@ -28,6 +28,7 @@ struct Chart {
   std::vector<ChartCurve> curves;
   std::string guide;  ///< what the lines of constant x * y stand for; empty: none are drawn. For logarithmic axes
   std::vector<std::string> notes;  ///< how to read it: lines below the legend
+  std::string made_of = {};        ///< version and scene, say: kept in the file and not drawn
 };
 
 /// The chart as an SVG of its own, 720 units wide, for a page or a paper: axes with ticks and grid, bands, and a legend

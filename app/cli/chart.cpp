@@ -83,6 +83,7 @@ void draw_chart(const ChartOptions& options, const Scene& scene, bool show) {
   }
   Chart chart = error_chart(variants, measurements);
   chart.title = scene.name;
+  chart.made_of = "glimt " GLIMT_VERSION "\n" + write_scene(scene);
   replace_file(options.out, svg_chart(chart));
   if (!options.csv.empty()) replace_file(options.csv, measurements_csv(variants, measurements));
   if (!options.quiet) print_outcomes(variants, measurements);

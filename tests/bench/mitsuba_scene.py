@@ -16,6 +16,12 @@ def _rgb(value):
     return {"type": "rgb", "value": [float(v) for v in value]}
 
 
+def _facets(material, kind):
+    """The type of a BSDF, and alpha = roughness^2 where it is rough."""
+    roughness = float(material.get("roughness", 0))
+    return {"type": f"rough{kind}", "distribution": "ggx", "alpha": roughness**2} if roughness > 0 else {"type": kind}
+
+
 def _bsdf(name, material):
     kind = material["type"]
     if "emission" in material:
@@ -24,10 +30,14 @@ def _bsdf(name, material):
         inner = {"type": "diffuse", "reflectance": _rgb(material["reflectance"])}
     elif kind == "mirror":
         inner = {"type": "conductor", "material": "none", "specular_reflectance": _rgb(material["reflectance"])}
+    elif kind == "conductor":
+        if "preset" in material:
+            raise Untranslated(f"material {name}: a preset, which only glimt knows")
+        inner = {"eta": _rgb(material["eta"]), "k": _rgb(material["k"]), **_facets(material, "conductor")}
     elif kind == "glass":
         if material.get("fresnel", "exact") != "exact":
             raise Untranslated(f"material {name}: Fresnel by {material['fresnel']}")
-        return {"type": "dielectric", "int_ior": float(material["ior"]), "ext_ior": 1.0}
+        return {"int_ior": float(material["ior"]), "ext_ior": 1.0, **_facets(material, "dielectric")}
     elif kind == "light":
         return {"type": "diffuse", "reflectance": _rgb([0, 0, 0])}
     else:

@@ -191,11 +191,11 @@ class Offscreen {
   }
 
   /// Saves what is drawn as a PNG.
-  void save(const std::filesystem::path& file) const {
+  void save(const std::filesystem::path& file, const Metadata& metadata = {}) const {
     std::vector<std::uint8_t> rgb;
     for (std::size_t i = 0; i < pixels_.size(); i += 4)
       rgb.insert(rgb.end(), {pixels_[i], pixels_[i + 1], pixels_[i + 2]});
-    replace_file(file, encode_png(width_ * ratio_, height_ * ratio_, rgb, {}));
+    replace_file(file, encode_png(width_ * ratio_, height_ * ratio_, rgb, metadata));
   }
 
  private:

@@ -20,7 +20,7 @@ std::vector<std::string> all(const std::string& text, const std::string& pattern
 }
 
 Chart line_chart(std::size_t curves) {
-  Chart chart{"Room & <lamp>", {"time, seconds"}, {"error"}, {}, "guide", {"note"}};
+  Chart chart{"Room & <lamp>", {"time, seconds"}, {"error"}, {}, "guide", {"note"}, "x < 1"};
   for (std::size_t i = 0; i < curves; ++i)
     chart.curves.push_back({"curve " + std::to_string(i), {{1, 100, 90, 110}, {10, 10, 9, 11}, {100, 1, 1, 1}}, {}});
   return chart;
@@ -50,7 +50,8 @@ TEST(SvgChart, CurvesDifferWithoutColour) {
 
 TEST(SvgChart, SaysWhatItShowsAndEscapesIt) {
   const std::string svg = svg_chart(line_chart(2));
-  for (const char* part : {"Room &amp; &lt;lamp&gt;", "time, seconds", ">error<", "curve 1", ">guide<", ">note<"})
+  for (const char* part : {"Room &amp; &lt;lamp&gt;", "time, seconds", ">error<", "curve 1", ">guide<", ">note<",
+                           "<metadata>x &lt; 1</metadata>"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
 }
 

@@ -123,7 +123,7 @@ TEST(Session, PauseStopsAndUsesNoCpu) {
   wait_for(session, [&](const Frame& f) {
     const bool same = f.samples == samples;
     samples = f.samples;
-    std::this_thread::sleep_for(200ms);
+    std::this_thread::sleep_for(1s);
     return same;
   });
   const double before = process_cpu_seconds();
