@@ -7,9 +7,9 @@
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
-/// Small lamps that the camera sees, straight or by way of mirrors and glass, are specks that few camera rays meet. They
-/// lie in known rectangles of the image. There, camera paths do not count the lamps that they meet before the first
-/// diffuse surface. Rays that go through these rectangles alone count them.
+/// Small lamps that the camera sees, straight or by way of mirrors and glass, are specks that few camera rays meet.
+/// They lie in known rectangles of the image. There, camera paths do not count the lamps that they meet before the
+/// first diffuse surface. Rays that go through these rectangles alone count them.
 namespace glimt {
 
 /// Whether a direction from the eye, of unit length, goes through one of the rectangles.
