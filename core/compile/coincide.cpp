@@ -278,6 +278,7 @@ class Coincidences {
     std::map<int, std::vector<int>> members;
     for (int i = 0; i < static_cast<int>(parts_.size()); ++i) members[root(i)].push_back(i);
     std::vector<std::vector<int>> result;
+    result.reserve(members.size());
     for (auto& [first, all] : members) result.push_back(std::move(all));
     return result;
   }

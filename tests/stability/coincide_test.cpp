@@ -560,6 +560,21 @@ TEST(CoincideWords, SaysWhatIsLeftOutAndWhatIsMovedApart) {
   }));
 }
 
+// Rays then pass from glass to glass and from glass to air, as they do where the inner one is not flush.
+TEST(CoincideWords, GlassInGlassStaysInside) {
+  const Mesh outer = block("a", "glass", dvec3{-1}, dvec3{1});
+  const Mesh inner = block("b", "dense", {-0.5, -0.5, 0}, {0.5, 0.5, 1});
+  for (const std::vector<Mesh>& meshes : {std::vector{outer, inner}, {inner, outer}}) {
+    const CompiledScene scene = compile(with(room(), {}, meshes));
+    std::vector<float> front;  // of the planes at z = 1, in order
+    for (const SolidPlane& plane : scene.solid_planes)
+      if (plane.nz > 0.9f) front.push_back(plane.d);
+    ASSERT_EQ(front.size(), 2u);
+    if (meshes[0].name == "b") std::swap(front[0], front[1]);
+    EXPECT_LT(front[1], front[0]);
+  }
+}
+
 // Tiles side by side, surfaces that cross, and a lamp a millimetre above a table do not coincide.
 TEST(CoincideWords, NothingIsMovedThatOnlyTouches) {
   std::vector<Polygon> tiles;
