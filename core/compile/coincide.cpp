@@ -22,9 +22,10 @@ namespace {
 
 using glm::dvec3;
 
-// In sizes of the scene.
+// In sizes of what is around (local_size()).
 constexpr double coincident = 0x1p-22;  ///< rays cannot tell apart what is nearer than this
 constexpr double deliberate = 0x1p-25;  ///< more is no error of single precision, so the order is meant
+constexpr double gap = 0x1p-20;         ///< rays can tell apart what this is between
 /// Normals whose cosine is nearer to 1 or -1 are parallel.
 constexpr double parallel = 1e-10;
 
@@ -35,6 +36,7 @@ struct FlatPiece {
   int object;       ///< polygons by their index, then meshes
   int triangle;     ///< of a mesh, else -1
   HalfSpace plane;  ///< n to the front
+  double size;      ///< of what is around, metres
 };
 
 /// What of an object is in one plane and faces one way.
@@ -52,22 +54,22 @@ struct PlanePart {
 class Coincidences {
  public:
   Coincidences(Scene& scene, const Reach& reach)
-      : scene_(scene), reach_(reach), polygons_(static_cast<int>(scene.polygons.size())), size_(size_of(scene)) {
-    Box box;
+      : scene_(scene), reach_(reach), polygons_(static_cast<int>(scene.polygons.size())), box_(box_of(scene)) {
     const auto collect = [&](int object, int triangle, const std::vector<dvec3>& outline) {
       if (in_wall_or_beyond(outline)) return;
-      for (const dvec3& v : outline) box.add(v);
-      pieces_.push_back({object, triangle, plane_of(outline)});
+      double from_centre = 0;
+      for (const dvec3& v : outline) from_centre = std::max(from_centre, length(v - middle()));
+      pieces_.push_back({object, triangle, plane_of(outline), local_size(box_, from_centre)});
     };
     for (int i = 0; i < polygons_; ++i) collect(i, -1, polygon(i).vertices);
     for (int i = 0; i < static_cast<int>(scene.meshes.size()); ++i)
       for (int t = 0; t < static_cast<int>(mesh(polygons_ + i).triangles.size()); ++t)
         collect(polygons_ + i, t,
                 triangle_vertices(mesh(polygons_ + i), mesh(polygons_ + i).triangles[static_cast<std::size_t>(t)]));
-    middle_ = (box.low + box.high) / 2.0;
   }
 
   bool separate(std::vector<std::string>& told, std::vector<std::string>& warnings) {
+    if (pieces_.empty()) return false;
     find_pairs();
     if (pairs_.empty()) return false;
     find_repeated();
@@ -102,8 +104,12 @@ class Coincidences {
     });
   }
 
-  bool lies_in(const std::vector<dvec3>& outline, const HalfSpace& plane) const {
-    return std::ranges::all_of(outline, [&](const dvec3& v) { return std::abs(dot(plane.n, v) - plane.d) <= near(); });
+  dvec3 middle() const { return (box_.low + box_.high) / 2.0; }
+  static double smaller_size(const FlatPiece& a, const FlatPiece& b) { return std::min(a.size, b.size); }
+
+  static bool lies_in(const std::vector<dvec3>& outline, const HalfSpace& plane, double tolerance) {
+    return std::ranges::all_of(outline,
+                               [&](const dvec3& v) { return std::abs(dot(plane.n, v) - plane.d) <= tolerance; });
   }
 
   /// Square metres; 0 for pieces that are not in one plane.
@@ -111,7 +117,8 @@ class Coincidences {
     if (std::abs(dot(a.plane.n, b.plane.n)) <= 1 - parallel) return 0;
     std::vector<dvec3> left = outline(a);
     const std::vector<dvec3> window = outline(b);
-    if (!lies_in(left, b.plane) && !lies_in(window, a.plane)) return 0;
+    const double tolerance = coincident * smaller_size(a, b);
+    if (!lies_in(left, b.plane, tolerance) && !lies_in(window, a.plane, tolerance)) return 0;
     for (std::size_t i = 0; i < window.size() && !left.empty(); ++i) {
       const dvec3 out = normalize(cross(window[(i + 1) % window.size()] - window[i], b.plane.n));
       left = clip(left, {out, dot(out, window[i])});
@@ -126,7 +133,7 @@ class Coincidences {
     std::vector<std::pair<std::uint64_t, int>> entries;
     for (int i = 0; i < static_cast<int>(pieces_.size()); ++i) {
       const HalfSpace& plane = piece(i).plane;
-      const double from_middle = (plane.d - dot(plane.n, middle_)) / size_;
+      const double from_middle = (plane.d - dot(plane.n, middle())) / box_.size();
       const double lean = dot(plane.n, dvec3{0.61, 0.53, 0.59});  // no direction that scenes like
       for (const double sign : {1.0, -1.0}) {
         if (sign * lean < -turned) continue;
@@ -183,7 +190,7 @@ class Coincidences {
           ++others;
           continue;
         }
-        std::erase_if(others->second, [&](const Bounded* b) { return b->box.high.x + near() < next.box.low.x; });
+        std::erase_if(others->second, [&](const Bounded* b) { return b->box.high.x + widest() < next.box.low.x; });
         for (const Bounded* other : others->second)
           if (meet(other->box, next.box)) note_pair(other->piece, next.piece);
         others = others->second.empty() ? open.erase(others) : std::next(others);
@@ -192,14 +199,16 @@ class Coincidences {
     }
   }
 
-  double near() const { return coincident * size_; }
+  /// The largest tolerance.
+  double widest() const { return coincident * box_.size(); }
   bool meet(const Box& a, const Box& b) const {
-    return all(lessThanEqual(a.low, b.high + near())) && all(lessThanEqual(b.low, a.high + near()));
+    return all(lessThanEqual(a.low, b.high + widest())) && all(lessThanEqual(b.low, a.high + widest()));
   }
 
   void note_pair(int a, int b) {
     const double least = std::min(area_of(outline(piece(a))), area_of(outline(piece(b))));
-    if (common_area(piece(a), piece(b)) > reach_.tolerance * std::sqrt(least)) pairs_.insert(std::minmax({a, b}));
+    if (common_area(piece(a), piece(b)) > gap * smaller_size(piece(a), piece(b)) * std::sqrt(least))
+      pairs_.insert(std::minmax({a, b}));
   }
 
   /// The same polygon or mesh of one material, facing the same way.
@@ -211,8 +220,9 @@ class Coincidences {
     }
     if (!is_mesh(a.object) || !is_mesh(b.object)) return false;
     return mesh(a.object).triangles == mesh(b.object).triangles &&
-           std::ranges::equal(mesh(a.object).vertices, mesh(b.object).vertices,
-                              [&](const dvec3& v, const dvec3& w) { return length(v - w) <= near(); });
+           std::ranges::equal(mesh(a.object).vertices, mesh(b.object).vertices, [&](const dvec3& v, const dvec3& w) {
+             return length(v - w) <= coincident * smaller_size(a, b);
+           });
   }
 
   void find_repeated() {
@@ -242,7 +252,7 @@ class Coincidences {
     if (is_mesh(s.object) && is_closed(mesh(s.object))) {
       const double volume = signed_volume(mesh(s.object));
       // One without thickness is a sheet with two fronts.
-      made.body = std::abs(volume) > made.area * near();
+      made.body = std::abs(volume) > made.area * coincident * s.size;
       const bool around =
           !transmits(m) && reach_.inside && std::abs(winding_number(mesh(s.object), *reach_.inside)) > 0.5;
       if (made.body && (volume < 0) != around) made.plane = {-made.plane.n, -made.plane.d};
@@ -251,7 +261,8 @@ class Coincidences {
     return static_cast<int>(parts_.size()) - 1;
   }
   void add_to(PlanePart& made, int i, const HalfSpace& plane) {
-    if (!same_direction(piece(i).plane.n, plane.n) || !lies_in(outline(piece(i)), plane)) return;
+    if (!same_direction(piece(i).plane.n, plane.n) || !lies_in(outline(piece(i)), plane, coincident * piece(i).size))
+      return;
     made.pieces.push_back(i);
     made.area += area_of(outline(piece(i)));
   }
@@ -259,7 +270,9 @@ class Coincidences {
   void relate_parts() {
     for (const auto& [a, b] : pairs_) {
       const int p = part_of(a), q = part_of(b);
-      if (p != q) related_.insert(std::minmax({p, q}));
+      if (p == q) continue;
+      double& size = related_[std::minmax({p, q})];
+      size = std::max(size, smaller_size(piece(a), piece(b)));
     }
   }
 
@@ -271,8 +284,8 @@ class Coincidences {
       while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
       return i;
     };
-    for (const auto& [p, q] : related_) {
-      const auto [low, high] = std::minmax({root(p), root(q)});
+    for (const auto& [pair, size] : related_) {
+      const auto [low, high] = std::minmax({root(pair.first), root(pair.second)});
       group[static_cast<std::size_t>(high)] = low;
     }
     std::map<int, std::vector<int>> members;
@@ -292,12 +305,16 @@ class Coincidences {
       const auto side = [&](int i) { return dot(part(i).plane.n, up) > 0 ? 1 : -1; };
       const auto height = [&](int i) { return dot(up, outline(piece(part(i).pieces[0]))[0]); };
 
+      double size = 0;
+      for (const auto& [pair, around] : related_)
+        if (std::ranges::find(group, pair.first) != group.end()) size = std::max(size, around);
+
       // Heights that differ by intent go before all else.
       std::ranges::stable_sort(group, {}, height);
       std::map<int, int> storey;
       for (std::size_t k = 0; k < group.size(); ++k)
         storey[group[k]] =
-            k == 0 ? 0 : storey[group[k - 1]] + (height(group[k]) - height(group[k - 1]) > deliberate * size_);
+            k == 0 ? 0 : storey[group[k - 1]] + (height(group[k]) - height(group[k - 1]) > deliberate * size);
       const auto place = [&](int i) {
         const PlanePart& p = part(i);
         const int s = side(i), zone = p.body ? (s > 0 ? 0 : 3) : (s > 0 ? 2 : 1);
@@ -310,7 +327,7 @@ class Coincidences {
         for (std::size_t below = 0; below < k; ++below)
           if (related_.contains(std::minmax({group[below], group[k]})))
             part(group[k]).layer = std::max(part(group[k]).layer, part(group[below]).layer + 1);
-      for (const int i : group) part(i).move = side(i) * (part(i).layer - part(anchor).layer) * reach_.tolerance;
+      for (const int i : group) part(i).move = side(i) * (part(i).layer - part(anchor).layer) * gap * size;
     }
   }
 
@@ -326,7 +343,7 @@ class Coincidences {
       }
       // Parts of one mesh that lie in each other may have vertices in common.
       const bool alone = std::ranges::none_of(related_, [&, own = object](const auto& r) {
-        return part(r.first).object == own && part(r.second).object == own;
+        return part(r.first.first).object == own && part(r.first.second).object == own;
       });
       Mesh& moving = scene_.meshes[static_cast<std::size_t>(object - polygons_)];
       if (parts[0]->body && alone)
@@ -403,10 +420,10 @@ class Coincidences {
                          display_name(first));
     }
     if (!related_.empty()) {
-      const auto& [p, q] = *related_.begin();
+      const auto& [p, q] = related_.begin()->first;
       told.push_back(std::to_string(related_.size()) + (related_.size() == 1 ? " pair" : " pairs") +
-                     " of surfaces that coincide, " + number_text(reach_.tolerance) +
-                     " m apart; the first: " + display_name(part(p).object) + " and " + display_name(part(q).object));
+                     " of surfaces that coincide, moved apart; the first: " + display_name(part(p).object) + " and " +
+                     display_name(part(q).object));
     }
   }
 
@@ -420,19 +437,22 @@ class Coincidences {
   Scene& scene_;
   const Reach& reach_;
   int polygons_;
-  double size_;
-  dvec3 middle_{0};
+  Box box_;  ///< around the scene
   std::vector<FlatPiece> pieces_;
   std::set<std::pair<int, int>> pairs_;  ///< of pieces that coincide, the lower first
   std::map<int, int> repeated_;          ///< objects, and those that they repeat
   std::vector<PlanePart> parts_;
-  std::set<std::pair<int, int>> related_;  ///< parts that coincide somewhere, the lower first
+  /// Parts that coincide somewhere, the lower first, and the size of what is around.
+  std::map<std::pair<int, int>, double> related_;
 };
 
 /// Spheres that coincide become shells of each other.
 bool separate_spheres(Scene& scene, const Reach& reach, std::vector<std::string>& told,
                       std::vector<std::string>& warnings) {
-  const double near = coincident * size_of(scene);
+  const Box box = box_of(scene);
+  const auto size = [&](const Sphere& s) {
+    return local_size(box, length(s.center - (box.low + box.high) / 2.0) + s.radius);
+  };
   std::vector<std::size_t> order(scene.spheres.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return scene.spheres[i].center.x; });
@@ -442,8 +462,9 @@ bool separate_spheres(Scene& scene, const Reach& reach, std::vector<std::string>
     for (std::size_t k = i + 1; k < order.size(); ++k) {
       const auto [low, high] = std::minmax({order[i], order[k]});
       const Sphere &a = scene.spheres[low], &b = scene.spheres[high];
-      if (scene.spheres[order[k]].center.x - scene.spheres[order[i]].center.x > near) break;
-      if (length(a.center - b.center) <= near && std::abs(a.radius - b.radius) <= near) groups[low].insert(high);
+      if (scene.spheres[order[k]].center.x - scene.spheres[order[i]].center.x > coincident * size(a)) break;
+      if (std::max(length(a.center - b.center), std::abs(a.radius - b.radius)) <= coincident * size(a))
+        groups[low].insert(high);
     }
   std::set<std::size_t> repeated;
   std::string first_repeated, first_pair;
@@ -474,16 +495,16 @@ bool separate_spheres(Scene& scene, const Reach& reach, std::vector<std::string>
     for (std::size_t k = 1; k < shells.size(); ++k) {
       if (pairs++ == 0)
         first_pair = toml_string(scene.spheres[shells[0]].name) + " and " + toml_string(scene.spheres[shells[k]].name);
-      scene.spheres[shells[k]].radius =
-          scene.spheres[shells[0]].radius + static_cast<double>(k) * reach.tolerance * (around ? -1 : 1);
+      scene.spheres[shells[k]].radius = scene.spheres[shells[0]].radius +
+                                        static_cast<double>(k) * gap * size(scene.spheres[first]) * (around ? -1 : 1);
     }
   }
   if (!repeated.empty())
     warnings.push_back(std::to_string(repeated.size()) + (repeated.size() == 1 ? " sphere is" : " spheres are") +
                        " there twice and left out once; the first: " + first_repeated);
   if (pairs > 0)
-    told.push_back(std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") + " of spheres that coincide, " +
-                   number_text(reach.tolerance) + " m apart; the first: " + first_pair);
+    told.push_back(std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
+                   " of spheres that coincide, moved apart; the first: " + first_pair);
   std::size_t next = 0;
   std::erase_if(scene.spheres, [&](const Sphere&) { return repeated.contains(next++); });
   return !repeated.empty() || pairs > 0;

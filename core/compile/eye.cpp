@@ -16,8 +16,8 @@ namespace {
 
 using glm::dvec3;
 
-/// In tolerances of positions.
-constexpr double step_off = 4;
+// In sizes of what is around the eye.
+constexpr double eye_on_surface = 0x1p-22, eye_off_surface = 0x1p-18;
 /// Surfaces that one eye may lie on.
 constexpr int most_surfaces = 16;
 
@@ -53,15 +53,16 @@ NearestSurface nearest_surface(const Scene& scene, const dvec3& eye) {
 
 void move_eye_off_surfaces(Scene& scene, std::vector<std::string>& told) {
   Camera& camera = scene.camera;
-  const double tolerance = position_tolerance(scene);
+  const Box box = box_of(scene);
+  const double size = local_size(box, length(camera.eye - (box.low + box.high) / 2.0));
   const dvec3 begun = camera.eye, view = normalize(camera.look_at - camera.eye);
   std::string first;
   for (int i = 0; i < most_surfaces; ++i) {
     const NearestSurface nearest = nearest_surface(scene, camera.eye);
-    if (!(nearest.distance <= tolerance)) break;
+    if (!(nearest.distance <= eye_on_surface * size)) break;
     if (i == 0) first = nearest.name;
     const double side = dot(nearest.front, view) < -1e-12 ? -1 : 1;
-    camera.eye += nearest.front * (side * step_off * tolerance - nearest.height);
+    camera.eye += nearest.front * (side * eye_off_surface * size - nearest.height);
   }
   if (camera.eye == begun) return;
   camera.look_at += camera.eye - begun;

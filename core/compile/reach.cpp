@@ -77,11 +77,13 @@ bool bounds_room(const Reach& reach, const Polygon& polygon, int material) {
 
 }  // namespace
 
-double position_tolerance(const Scene& scene) { return size_of(scene) * 0x1p-20; }
+double local_size(const Box& scene, double from_centre) { return std::min(scene.size(), 16 * from_centre); }
 
 Reach find_reach(const Scene& scene) {
   Reach reach;
-  reach.tolerance = position_tolerance(scene);
+  // Single precision keeps positions to about 2^-24 of the scene's size; four bits more are what a hit point may be
+  // off.
+  reach.tolerance = size_of(scene) * 0x1p-20;
   const std::vector<Face> faces = faces_of(scene);
   const bool cutaway = scene.camera.cutaway == Cutaway::on;
   reach.inside = cutaway ? place_in_room(scene, scene.camera.eye) : std::optional(scene.camera.eye);

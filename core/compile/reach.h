@@ -2,14 +2,15 @@
 
 #include <optional>
 
+#include "math/box.h"
 #include "scene/geometry/room.h"
 #include "scene/scene.h"
 
 namespace glimt {
 
-/// How far apart surfaces must be to be two, metres: single precision keeps positions to about 2^-24 of the scene's
-/// size, and four bits more are what a hit point may be off.
-double position_tolerance(const Scene& scene);
+/// What the tolerance of something is a part of, metres: the scene's size, but less for what is near to the scene's
+/// centre, where positions are kept to more digits. A wide ground then does not blur what stands on it.
+double local_size(const Box& scene, double from_centre);
 
 /// What of a scene the paths from its camera can reach.
 struct Reach {

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include "math/box.h"
 #include "scene/fields.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/geometry/room.h"
@@ -21,19 +20,6 @@ using glm::dvec3;
 constexpr int directions = 32;         ///< that a closed room must hide the open in
 constexpr std::size_t most_lamps = 8;  ///< a room is looked for at so many of the nearest
 constexpr double step_through = 1e-9;  ///< past a glass surface, in sizes of the scene
-
-Box box_of(const Scene& scene) {
-  Box box;
-  for (const Polygon& p : scene.polygons)
-    for (const dvec3& v : p.vertices) box.add(v);
-  for (const Mesh& m : scene.meshes)
-    for (const dvec3& v : m.vertices) box.add(v);
-  for (const Sphere& s : scene.spheres) {
-    box.add(s.center - s.radius);
-    box.add(s.center + s.radius);
-  }
-  return box;
-}
 
 /// Distance to the first surface that is not glass, in lengths of the direction; nothing where the ray meets none.
 std::optional<double> distance_to_opaque(const Scene& scene, WorldRay ray, double size) {
@@ -82,10 +68,20 @@ std::vector<WorldRay> rays_from_lamps(const Scene& scene, const dvec3& middle) {
 
 }  // namespace
 
-double size_of(const Scene& scene) {
-  const Box box = box_of(scene);
-  return box.size();
+Box box_of(const Scene& scene) {
+  Box box;
+  for (const Polygon& p : scene.polygons)
+    for (const dvec3& v : p.vertices) box.add(v);
+  for (const Mesh& m : scene.meshes)
+    for (const dvec3& v : m.vertices) box.add(v);
+  for (const Sphere& s : scene.spheres) {
+    box.add(s.center - s.radius);
+    box.add(s.center + s.radius);
+  }
+  return box;
 }
+
+double size_of(const Scene& scene) { return box_of(scene).size(); }
 
 bool is_enclosed(const Scene& scene, const dvec3& point) { return is_enclosed(scene, point, size_of(scene)); }
 

@@ -3,12 +3,15 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "math/box.h"
 #include "scene/scene.h"
 
 /// Where a point is in a scene: in a closed room or in the open. All in world space.
 namespace glimt {
 
-/// Diagonal of the box around all objects, metres.
+/// Around all objects.
+Box box_of(const Scene& scene);
+/// Diagonal of that box, metres.
 double size_of(const Scene& scene);
 
 /// Whether surfaces that are not glass hide the open in all of some directions that are spread evenly.

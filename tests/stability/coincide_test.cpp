@@ -575,6 +575,21 @@ TEST(CoincideWords, GlassInGlassStaysInside) {
   }
 }
 
+// On a ground of 20 km a block of 1 m stands as it does on one of 20 m: not in the air.
+TEST(CoincideWords, AWideGroundDoesNotLiftWhatStandsOnIt) {
+  for (const double ground : {20.0, 20e3}) {
+    Scene scene =
+        with(room(), {}, {block("b", "white", {-0.5, 0, -0.5}, {0.5, 1, 0.5})}, {{"l", "lamp", {0, 3, 0}, 0.5}});
+    scene.polygons = {square("ground", "white", 0, ground / 2)};
+    const CompiledScene compiled = compile(scene);
+    double height = 1;  // of the block's side that faces down over the ground
+    for (const SolidPlane& plane : compiled.solid_planes)
+      if (plane.ny < -0.9f) height = -static_cast<double>(plane.d) - static_cast<double>(compiled.polygons[0].d);
+    EXPECT_GT(height, 0);
+    EXPECT_LT(height, 3e-5) << ground;
+  }
+}
+
 // Tiles side by side, surfaces that cross, and a lamp a millimetre above a table do not coincide.
 TEST(CoincideWords, NothingIsMovedThatOnlyTouches) {
   std::vector<Polygon> tiles;
