@@ -219,10 +219,10 @@ CompiledScene compile(const Scene& as_edited) {
     throw SceneError(problems.front().path + ": " + problems.front().message);
   // What is rendered is in places not what was edited.
   auto [scene, warnings] = mend(as_edited);
-  std::vector<std::string> compiled_in;
+  CoincidenceNotes notes;
   move_eye_off_surfaces(scene, warnings);
   Reach reach = find_reach(scene);
-  if (separate_coincident(scene, reach, compiled_in, warnings)) reach = find_reach(scene);
+  if (separate_coincident(scene, reach, notes)) reach = find_reach(scene);
   Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
@@ -234,8 +234,9 @@ CompiledScene compile(const Scene& as_edited) {
   l.out.camera_outside = l.reach.camera_outside;
   l.out.room_hides_lamps = l.reach.lamp_pierces_room;
   l.out.left_out = l.reach.left_out;
-  l.out.compiled_in = std::move(compiled_in);
+  l.out.compiled_in = std::move(notes.told);
   l.out.warnings = std::move(warnings);
+  l.out.warnings.insert(l.out.warnings.end(), notes.warnings.begin(), notes.warnings.end());
   l.out.warnings.insert(l.out.warnings.end(), l.reach.warnings.begin(), l.reach.warnings.end());
   lower_room(l);
   l.out.room_surfaces = static_cast<int>(l.surfaces.size());

@@ -14,4 +14,9 @@ struct Box {
   double size() const { return length(high - low); }
 };
 
+/// Whether they come nearer to each other than the tolerance along every axis.
+inline bool meet(const Box& a, const Box& b, double tolerance) {
+  return all(lessThanEqual(a.low, b.high + tolerance)) && all(lessThanEqual(b.low, a.high + tolerance));
+}
+
 }  // namespace glimt

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -17,10 +16,6 @@ namespace {
 
 using glm::dvec3;
 using Triangle = std::array<dvec3, 3>;
-
-bool meet(const Box& a, const Box& b, double tolerance) {
-  return all(lessThanEqual(a.low, b.high + tolerance)) && all(lessThanEqual(b.low, a.high + tolerance));
-}
 
 Box box_of(std::span<const Triangle> triangles) {
   Box box;
