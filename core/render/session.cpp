@@ -74,10 +74,7 @@ std::uint64_t Session::post(const Scene& scene) {
   const auto last = last_job();
   auto job = std::make_shared<Job>();
   Scene same = scene;
-  if (last) {
-    same.render.spp = last->scene.render.spp;
-    same.render.target_error = last->scene.render.target_error;
-  }
+  if (last && without_target(scene.render) == without_target(last->scene.render)) same.render = last->scene.render;
   const bool new_target_only = last && same == last->scene;
   if (new_target_only) {
     *job = *last;

@@ -5,8 +5,8 @@
 /// The parts of the column of controls, one file each, drawn into the current ImGui window.
 namespace glimt {
 
-/// Name of the scene, samples done, speed, error and time.
-void draw_progress_panel(const ViewerState& state);
+/// Name of the scene, samples done, speed, error and time, and where to stop.
+void draw_progress_panel(const ViewerState& state, Edits& edits);
 
 /// Pause, restart, undo, redo, files, snapshots.
 void draw_actions_panel(const ViewerState& state, Edits& edits);

@@ -1,9 +1,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "viewer/panels/panels.h"
 #include "viewer/widgets/style.h"
@@ -31,12 +33,85 @@ std::string duration(double seconds) {
 }
 
 constexpr const char* dash = "\u2013";
+constexpr double least_error = 1e-6, most_error = 1;
 
 /// Of the way to the target, 0..1; the error falls as 1 / samples.
 double share_done(const Settings& settings, const Frame& frame) {
   if (frame.finished) return 1;
   if (settings.target_error == 0) return std::min(1.0, static_cast<double>(frame.samples) / settings.spp);
   return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.relmse_estimate) : 0;
+}
+
+/// The error of the picture so far against time, both logarithmic. An error that falls as 1 / time is a straight line.
+void draw_trend(const ViewerState& state, const Frame& frame) {
+  const float width = ImGui::GetContentRegionAvail().x, height = style::scaled(30);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + width, at.y + height}, style::well, style::scaled(3));
+  ImGui::Dummy({width, height});
+  note_widget("trend");
+  tooltip(
+      "The estimated error so far against time, both logarithmic. A straight line down is an error that falls as "
+      "1 / time.");
+  const Curve* curve = state.chart.curves.current();
+  std::vector<ImVec2> logs;
+  if (curve && frame.samples > 1)
+    for (const RunPoint& p : curve->points)
+      if (p.seconds > 0 && p.estimate > 0 && std::isfinite(p.estimate))
+        logs.emplace_back(static_cast<float>(std::log(p.seconds)), static_cast<float>(std::log(p.estimate)));
+  if (logs.size() < 2) return;
+  const auto [low, high] = std::ranges::minmax(logs, {}, &ImVec2::y);
+  const float left = logs.front().x, across = std::max(logs.back().x - left, 1e-3F);
+  const float up = std::max(high.y - low.y, 1e-3F), pad = style::scaled(5);
+  for (ImVec2& p : logs)
+    p = {at.x + pad + (p.x - left) / across * (width - 2 * pad), at.y + pad + (high.y - p.y) / up * (height - 2 * pad)};
+  list.AddPolyline(logs.data(), static_cast<int>(logs.size()), ImGui::GetColorU32(ImGuiCol_PlotHistogram),
+                   ImDrawFlags_None, style::scaled(1.5F));
+  list.AddCircleFilled(logs.back(), style::scaled(2.5F), ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+}
+
+bool choose_stop(StopAt& stop) {
+  constexpr std::array labels{"Never", "Samples", "Error"};
+  const auto chosen = static_cast<std::size_t>(stop);
+  const bool open = ImGui::BeginCombo("##choice", labels.at(chosen));
+  note_widget("stop_at");
+  if (!open) return false;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (ImGui::Selectable(labels.at(i), i == chosen)) stop = static_cast<StopAt>(i);
+    note_widget("stop_at." + std::string(stop_at_names.at(i)));
+  }
+  ImGui::EndCombo();
+  return static_cast<std::size_t>(stop) != chosen;
+}
+
+/// Where to stop: never, or at a number that stands beside the choice.
+void edit_goal(const ViewerState& state, Edits& edits) {
+  RenderGoal goal = state.goal;
+  begin_row("Stop at",
+            "What ends the rendering in this window. Never: it goes on until it is paused. A new end goes on with the "
+            "samples there are. The target in the scene's file stays as it is.\nDrag the number, or Ctrl+click to type "
+            "it.");
+  ImGui::PushID("stop_at");
+  const StopAt before = goal.stop_at;
+  if (before != StopAt::never) ImGui::SetNextItemWidth(style::scaled(92));
+  bool changed = choose_stop(goal.stop_at);
+  if (before != StopAt::never) {
+    ImGui::SameLine(0, style::scaled(6));
+    ImGui::SetNextItemWidth(-FLT_MIN);
+  }
+  if (before == StopAt::samples) {
+    if (slider(goal.samples, 1, max_spp, true)) {
+      changed = true;
+      // The mouse goes by powers of two; others can be typed.
+      if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) goal.samples = 1 << std::lround(std::log2(goal.samples));
+    }
+    note_widget("stop_at.number");
+  } else if (before == StopAt::error) {
+    changed |= logarithmic_slider(goal.error, least_error, most_error, " relMSE");
+    note_widget("stop_at.number");
+  }
+  ImGui::PopID();
+  if (changed) edits.goal = goal;
 }
 
 const char* condition(const ViewerState& state) {
@@ -46,7 +121,7 @@ const char* condition(const ViewerState& state) {
 
 }  // namespace
 
-void draw_progress_panel(const ViewerState& state) {
+void draw_progress_panel(const ViewerState& state, Edits& edits) {
   ImGui::PushFont(style::heading_font());
   const std::string right = condition(state);
   const float right_width = ImGui::CalcTextSize(right.c_str()).x;
@@ -60,24 +135,28 @@ void draw_progress_panel(const ViewerState& state) {
   const Frame none;
   const Frame& frame = state.frame ? *state.frame : none;
   const Settings& settings = state.scene.render;
+  const bool ends = has_target(settings), by_error = settings.target_error > 0;
   const double share = share_done(settings, frame);
-  ImGui::ProgressBar(static_cast<float>(share), {-FLT_MIN, style::scaled(6)}, "");
-  const std::string of = settings.target_error > 0 ? "" : " of " + std::to_string(settings.spp);
+  if (ends)
+    ImGui::ProgressBar(static_cast<float>(share), {-FLT_MIN, style::scaled(6)}, "");
+  else
+    draw_trend(state, frame);
+  const std::string of = ends && !by_error ? " of " + std::to_string(settings.spp) : "";
   text_row("Samples / pixel", std::to_string(frame.samples) + of,
-           "Paths traced so far through each pixel, and where rendering stops. Four times as many halve the noise.");
-  const std::string aim = settings.target_error > 0 ? number(" of %.2g relMSE", settings.target_error) : " relMSE";
+           "Paths traced so far through each pixel. Four times as many halve the noise.");
+  const std::string aim = by_error ? number(" of %.2g relMSE", settings.target_error) : " relMSE";
   text_row(
       "Estimated error",
       std::isfinite(frame.relmse_estimate) && frame.samples > 1 ? number("%.3g", frame.relmse_estimate) + aim : dash,
       "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
-      "as 1 / "
-      "samples.");
+      "as 1 / samples.");
   text_row("Speed", number("%.1f Mpaths/s", frame.paths_per_second / 1e6),
            "Millions of paths from the camera in a second.");
-  const bool to_come = share > 0 && share < 1;
+  const bool to_come = ends && share > 0 && share < 1;
   text_row("Time",
            duration(frame.seconds) + (to_come ? ", " + duration(frame.seconds * (1 / share - 1)) + " to go" : ""),
            "Spent rendering since the last change, pauses left out, and what the target will take from here.");
+  edit_goal(state, edits);
 }
 
 }  // namespace glimt

@@ -38,10 +38,12 @@ bool is_black(const Frame& frame) {
 
 }  // namespace
 
-Controller::Controller(Scene scene, fs::path file, const std::function<void()>& wake, Execution execution)
+Controller::Controller(Scene scene, fs::path file, const std::function<void()>& wake, Execution execution,
+                       const RenderGoal& goal)
     : snapshots_(wake), watch_(wake), session_(execution, wake), charting_(state_.chart, wake, execution) {
   state_.opened_camera = scene.camera;
-  show(std::make_shared<const Scene>(std::move(scene)));
+  const RenderGoal first = goal_for(scene, goal);
+  show(Document{std::make_shared<const Scene>(std::move(scene)), {}, first});
   set_file(std::move(file));
 }
 
@@ -65,7 +67,7 @@ bool Controller::poll() {
     state_.frame = std::move(frame);
     state_.black = state_.frame && is_black(*state_.frame);
     if (state_.frame) posted_.erase(posted_.begin(), shown());
-    if (state_.frame && shown()->second == now_) charting_.add(state_.frame);
+    if (state_.frame && shown()->second == posted_scene_) charting_.add(state_.frame);
     news = true;
   }
   std::string error;
@@ -89,9 +91,12 @@ void Controller::apply(const Edits& edits) {
   if (edits.folder) state_.folder = *edits.folder;
   if (edits.select) state_.selected = *edits.select;
   if (edits.dismiss_hint || edits.scene || edits.select) state_.hint = false;
-  if (edits.scene) {
+  if (edits.scene || edits.goal) {
+    Document after = now();
+    if (edits.scene) after.scene = std::make_shared<const Scene>(as_filed(*edits.scene, *after.scene));
+    if (edits.goal) after.goal = *edits.goal;
     try {
-      edit(*edits.scene, edits.gesture);
+      edit(after, edits.gesture);
     } catch (const std::exception& error) {
       state_.message = {error.what(), true};
     }
@@ -138,31 +143,34 @@ void Controller::export_chart(const Edits& edits) {
     snapshots_.write(curves_svg(curves, state_.chart.view.across, state_.scene.name), stem_ + "-chart", "svg");
 }
 
-void Controller::edit(const Scene& scene, std::uint64_t gesture) {
-  if (scene == *now_) return;
+void Controller::edit(const Document& after, std::uint64_t gesture) {
   Document before = now();
-  show(std::make_shared<const Scene>(scene), gesture);
+  if (*after.scene == *before.scene && after.goal == before.goal) return;
+  show(after, gesture);
   history_.edited(std::move(before), gesture);
 }
 
-Document Controller::now() const { return {now_, state_.file}; }
+Document Controller::now() const { return {state_.filed, state_.file, state_.goal}; }
 
 void Controller::show(const std::optional<Document>& document) {
   if (!document) return;
-  show(document->scene);
+  show(*document);
   if (document->file != state_.file) set_file(document->file);
 }
 
-void Controller::show(std::shared_ptr<const Scene> scene, std::uint64_t gesture) {
+void Controller::show(const Document& document, std::uint64_t gesture) {
+  auto scene = std::make_shared<const Scene>(as_shown(*document.scene, document.goal));
   state_.version = session_.post(*scene);
   state_.compiled = session_.compiled();
   state_.scene = *scene;
+  state_.filed = document.scene;
+  state_.goal = document.goal;
   state_.enclosed = is_enclosed(*scene, scene->camera.eye);
   if (state_.selected && !contains(state_.scene, *state_.selected)) state_.selected.reset();
   if (state_.message.error) state_.message = {};
   posted_[state_.version] = scene;
-  now_ = std::move(scene);
-  charting_.show(now_, gesture);
+  posted_scene_ = std::move(scene);
+  charting_.show(posted_scene_, gesture);
   if (posted_.size() > max_posted) posted_.erase(std::next(posted_.begin()));
 }
 
@@ -188,7 +196,9 @@ void Controller::open(const fs::path& file) {
 }
 
 void Controller::open_scene(const fs::path& file) {
-  edit(read_scene(file), 0);
+  Scene scene = read_scene(file);
+  const RenderGoal goal = goal_for(scene, state_.goal);
+  edit({std::make_shared<const Scene>(std::move(scene)), state_.file, goal});
   set_file(file);
   state_.message = {"Opened " + file.filename().string()};
 }
@@ -198,7 +208,12 @@ void Controller::open_picture(const fs::path& file) {
   const auto scene = metadata.find("scene");
   if (scene == metadata.end())
     throw std::runtime_error(file.string() + ": holds no scene; allowed are pictures that glimt has written");
-  edit(parse_scene(scene->second, file.string()), 0);
+  // It comes back to as many samples as it had, so that it is the same picture.
+  Scene made = parse_scene(scene->second, file.string());
+  RenderGoal goal = state_.goal;
+  goal.stop_at = StopAt::samples;
+  goal.samples = made.render.spp;
+  edit({std::make_shared<const Scene>(std::move(made)), state_.file, goal});
   set_file(file);
   if (metadata.contains("exposure")) state_.display = read_display(metadata);
   state_.message = {"Opened the scene in " + file.filename().string()};
@@ -206,7 +221,7 @@ void Controller::open_picture(const fs::path& file) {
 
 void Controller::save(const fs::path& file) {
   try {
-    replace_file(file, write_scene(state_.scene));
+    replace_file(file, write_scene(*state_.filed));
     set_file(file);
     state_.message = {"Saved " + file.filename().string()};
   } catch (const std::exception& error) {
@@ -216,7 +231,7 @@ void Controller::save(const fs::path& file) {
 
 void Controller::reload() {
   try {
-    edit(read_scene(state_.file), 0);
+    edit({std::make_shared<const Scene>(read_scene(state_.file)), state_.file, state_.goal});
     state_.opened_camera = state_.scene.camera;
     state_.message = {"Read " + state_.file.filename().string() + " again, which has changed"};
   } catch (const std::exception& error) {

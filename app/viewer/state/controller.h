@@ -21,7 +21,8 @@ class Controller {
  public:
   /// Starts to render the scene, which is from `file`. `wake` is called on other threads when poll() has news. Throws
   /// SceneError.
-  Controller(Scene scene, std::filesystem::path file, const std::function<void()>& wake, Execution execution = {});
+  Controller(Scene scene, std::filesystem::path file, const std::function<void()>& wake, Execution execution = {},
+             const RenderGoal& goal = {});
 
   const ViewerState& state() const { return state_; }
   /// What the window remembers from its last start. To be called before the first edits.
@@ -38,9 +39,9 @@ class Controller {
   /// The scene that the frame shows.
   Posted::const_iterator shown() const;
   Document now() const;
-  void show(std::shared_ptr<const Scene> scene, std::uint64_t gesture = 0);
+  void show(const Document& document, std::uint64_t gesture = 0);
   void show(const std::optional<Document>& document);
-  void edit(const Scene& scene, std::uint64_t gesture);
+  void edit(const Document& after, std::uint64_t gesture = 0);
   void set_file(std::filesystem::path file);
   void open(const std::filesystem::path& file);
   void open_scene(const std::filesystem::path& file);
@@ -53,8 +54,8 @@ class Controller {
   void take_wanted_snapshots();
 
   ViewerState state_;
-  std::string stem_;                  ///< of snapshots
-  std::shared_ptr<const Scene> now_;  ///< the same as state_.scene
+  std::string stem_;                           ///< of snapshots
+  std::shared_ptr<const Scene> posted_scene_;  ///< the same as state_.scene
   History history_;
   Posted posted_;                 ///< back to the one the frame shows
   std::vector<Snapshot> wanted_;  ///< of the next frame that holds what they are to show

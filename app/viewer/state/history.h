@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "viewer/state/render_goal.h"
 
 namespace glimt {
 
-/// A scene, and the file that it is from.
+/// A scene as its file holds it, the file that it is from, and how far it is rendered.
 struct Document {
   std::shared_ptr<const Scene> scene;
   std::filesystem::path file;
+  RenderGoal goal = {};
 };
 
 /// What edits can be undone and redone.

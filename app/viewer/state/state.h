@@ -13,6 +13,7 @@
 #include "viewer/state/camera_moves.h"
 #include "viewer/state/charting.h"
 #include "viewer/state/compare.h"
+#include "viewer/state/render_goal.h"
 
 namespace glimt {
 
@@ -24,7 +25,9 @@ struct Message {
 
 /// All that the panels show. They read it; the controller alone changes it.
 struct ViewerState {
-  Scene scene;                                    ///< as edited; the frame may still show the one before
+  Scene scene;                                    ///< as edited and rendered; the frame may still show the one before
+  std::shared_ptr<const Scene> filed;             ///< the same as a file holds it: with its own target
+  RenderGoal goal;                                ///< how far the scene is rendered
   std::uint64_t version = 0;                      ///< of the scene; frames of this or a later one show it
   std::shared_ptr<const CompiledScene> compiled;  ///< of the scene
   Camera opened_camera;                           ///< as it was in the file, to come back to
@@ -57,9 +60,10 @@ enum class PictureZoom { fitted, pixel_by_pixel };
 
 /// What a person asked for while one picture of the window was drawn.
 struct Edits {
-  std::optional<Scene> scene;
+  std::optional<Scene> scene;  ///< its target does not count: that is `goal`
+  std::optional<RenderGoal> goal;
   std::uint64_t gesture =
-      0;  ///< edits of the scene that follow each other in one gesture, as in a drag, are undone as one
+      0;  ///< edits of scene and goal that follow each other in one gesture, as in a drag, are undone as one
   std::optional<Display> display;
   std::optional<std::optional<ObjectId>> select;  ///< an object, or none
   std::optional<std::filesystem::path> open;      ///< a scene file, or a picture that glimt has written

@@ -48,7 +48,7 @@ TEST(FamiliesPanel, MeasuresWhileThePictureWaits) {
   const auto worst = std::ranges::max_element(all, {}, &Family::share) - all.begin();
   EXPECT_TRUE(window.widgets().contains("families.answer." + std::to_string(worst)));
   EXPECT_FALSE(window.widgets().contains("measured.before"));
-  window.edit([](Scene& scene) { scene.render.spp /= 2; });
+  window.set_goal([](RenderGoal& goal) { goal.samples /= 2; });
   EXPECT_FALSE(window.widgets().contains("measured.before")) << "where rendering stops is no matter";
   window.edit([](Scene& scene) { scene.render.light_paths = 0; });
   EXPECT_TRUE(window.widgets().contains("measured.before"));

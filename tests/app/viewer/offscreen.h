@@ -34,7 +34,8 @@ inline Scene small_room(int spp = 4) {
 
 class Offscreen {
  public:
-  /// `width` and `height` in window coordinates, `ratio` framebuffer pixels for each.
+  /// `width` and `height` in window coordinates, `ratio` framebuffer pixels for each. Rendering stops where the scene's
+  /// file says.
   Offscreen(Scene scene, int width, int height, float scale = 1, int ratio = 1)
       : width_(width), height_(height), ratio_(ratio), scale_(scale), pixels_(4UL * ratio * width * ratio * height) {
     context_ = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
@@ -43,8 +44,9 @@ class Offscreen {
       throw std::runtime_error("OSMesa gives no OpenGL context");
     }
     OSMesaPixelStore(OSMESA_Y_UP, 0);
+    const RenderGoal goal{.stop_at = StopAt::samples, .samples = scene.render.spp};
     controller_ = std::make_unique<Controller>(
-        std::move(scene), "picture.toml", [] {}, Execution{.threads = 2});
+        std::move(scene), "picture.toml", [] {}, Execution{.threads = 2}, goal);
     screen_ = std::make_unique<Screen>();
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
@@ -82,6 +84,11 @@ class Offscreen {
   void edit(const std::function<void(Scene&)>& change) {
     Edits edits;
     change(edits.edit(state()));
+    apply(edits);
+  }
+  void set_goal(const std::function<void(RenderGoal&)>& change) {
+    Edits edits;
+    change(edits.goal.emplace(state().goal));
     apply(edits);
   }
   const ViewerState& state() const { return controller_->state(); }

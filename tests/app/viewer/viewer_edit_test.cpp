@@ -149,7 +149,7 @@ TEST_F(ViewerEdit, UndoAndRedoOfEveryEditBringTheSamplesBack) {
   window.press("tab.estimator");
   window.press("render.shadow_rays", 0.5F);
   did("shadow rays");
-  window.press("render.spp", 0.3F);
+  window.press("stop_at.number", 0.3F);
   did("target");
   open(window, fs::path(GLIMT_SCENES) / "cornell.toml");
   did("another file");
@@ -175,12 +175,10 @@ TEST_F(ViewerEdit, TargetCanBeAnError) {
   Offscreen window(small_room(), window_width, window_height);
   ASSERT_TRUE(window.draw_until_finished());
   const auto version = window.state().frame->version;
-  window.press("tab.estimator");
-  window.press("target");
-  window.press("target.estimated_error");
+  window.press("stop_at");
+  window.press("stop_at.error");
   EXPECT_GT(window.state().scene.render.target_error, 0);
-  EXPECT_FALSE(window.widgets().contains("render.spp"));
-  window.press("render.target_error", 0.8F);  // logarithmic from 1e-6 to 1: 10^-1.2
+  window.press("stop_at.number", 0.8F);  // logarithmic from 1e-6 to 1: 10^-1.2
   EXPECT_NEAR(std::log10(window.state().scene.render.target_error), -1.2, 0.1);
   ASSERT_TRUE(window.draw_until_finished());
   EXPECT_EQ(window.state().frame->version, version) << "never restarts";

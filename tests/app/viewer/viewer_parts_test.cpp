@@ -20,6 +20,7 @@
 #include "viewer/state/edit.h"
 #include "viewer/state/file_watch.h"
 #include "viewer/state/history.h"
+#include "viewer/state/render_goal.h"
 #include "viewer/state/snapshot.h"
 #include "viewer/state/window_settings.h"
 #include "viewer/widgets/colour.h"
@@ -81,6 +82,23 @@ TEST(Edit, SaysWhyAShapeCannotBeOfAMaterial) {
     EXPECT_EQ(obstacle_to(scene, wall, info.name) == "", info.name != "glass") << info.name;
   }
   EXPECT_EQ(obstacle_to(scene, solid, "glass"), "") << "a tetrahedron is closed";
+}
+
+TEST(RenderGoal, StopsTheWindowAndLeavesTheFile) {
+  Scene file;
+  file.render.spp = 50;
+  file.render.target_error = 0.25;
+  EXPECT_FALSE(has_target(as_shown(file, {}).render));
+  const Scene samples = as_shown(file, {.stop_at = StopAt::samples, .samples = 7});
+  EXPECT_EQ(samples.render.spp, 7);
+  EXPECT_EQ(samples.render.target_error, 0);
+  EXPECT_EQ(as_shown(file, {.stop_at = StopAt::error, .error = 0.5}).render.target_error, 0.5);
+  EXPECT_EQ(as_filed(samples, file), file);
+  EXPECT_EQ(goal_for(file, {}).samples, 50);
+  EXPECT_EQ(goal_for(file, {}).error, 0.25);
+  // The grid of sub-pixel centres has as many cells as there are samples.
+  file.render.sampler = Sampler::centres;
+  EXPECT_EQ(as_shown(file, {}).render.spp, 50);
 }
 
 Document document(const std::string& name) {

@@ -191,15 +191,35 @@ TEST(Viewer, SampleTargetGoesOnAndShadowRaysRestart) {
   Offscreen window(small_room(), window_width, window_height);
   ASSERT_TRUE(window.draw_until_finished());
   const auto version = window.state().frame->version;
-  window.press("tab.estimator");
-  window.press("render.spp", 5.0F / 24);  // logarithmic to 2^24: 2^5
+  window.press("stop_at.number", 5.0F / 24);  // logarithmic to 2^24: 2^5
   EXPECT_EQ(window.state().scene.render.spp, 32);
   ASSERT_TRUE(window.draw_until([&] { return window.state().frame->samples == 32; }));
   EXPECT_EQ(window.state().frame->version, version) << "a new target goes on with the samples there are";
 
+  window.press("tab.estimator");
   window.press("render.shadow_rays", 0.5F);
   EXPECT_NEAR(window.state().scene.render.shadow_rays, 32, 2);
   EXPECT_GT(window.state().version, version);
+}
+
+// The file's target is for the command line: the window renders past it, and leaves it as it is.
+TEST(Viewer, GoesOnPastTheFilesTargetUntilATargetIsSet) {
+  const Scene room = small_room(4);
+  Offscreen window(room, window_width, window_height);
+  window.set_goal([](RenderGoal& goal) { goal = {}; });
+  ASSERT_TRUE(window.draw_until([&] { return window.state().frame && window.state().frame->samples > 8; }));
+  EXPECT_FALSE(window.state().frame->finished);
+  EXPECT_TRUE(window.widgets().contains("trend")) << "no bar, as there is no end";
+  EXPECT_EQ(*window.state().filed, room);
+
+  window.press("stop_at");
+  window.press("stop_at.samples");
+  EXPECT_FALSE(window.widgets().contains("trend"));
+  ASSERT_TRUE(window.draw_until([&] { return window.state().frame->finished; }));
+  EXPECT_EQ(*window.state().filed, room);
+  window.press("undo");
+  EXPECT_EQ(window.state().goal.stop_at, StopAt::never);
+  EXPECT_TRUE(window.draw_until([&] { return !window.state().frame->finished; })) << "and it goes on";
 }
 
 TEST(Viewer, PauseAndRestart) {

@@ -196,6 +196,9 @@ class WindowTest : public ::testing::Test {
     EXPECT_TRUE(is_gone(menu + "." + item)) << menu << " stays open";
   }
 
+  /// Until then the window goes on without end.
+  static void stop_at_the_files_samples() { choose("stop_at", "samples"); }
+
   /// Takes a snapshot of `stem` and returns the scene in it.
   Scene snapshot(const std::string& stem) {
     xdotool("key s");

@@ -40,6 +40,7 @@ TEST_F(WindowChart, FollowsTheReportsVisit) {
   if (std::getenv("GLIMT_SCREENSHOTS") == nullptr) size = {"image.width=120", "image.height=120"};
   std::ofstream("report.toml") << write_scene(read_scene(report_scene(), size));
   open_window("report.toml");
+  stop_at_the_files_samples();
   click("tab.estimator");
   point_at("image");
   xdotool("key c");

@@ -71,8 +71,6 @@ TEST_F(WindowTest, SpacePausesAndResumes) {
     const std::string text = content("frames");
     return std::count(text.begin(), text.end(), '\n');
   };
-  click("tab.estimator");
-  click("render.spp", 0.98);  // so many samples that it does not finish
   point_at("image");
   xdotool("key space");
   // The frames stop once it is paused; the mouse stays still.
@@ -203,6 +201,7 @@ TEST_F(ManagedWindow, EverySliderMovesAndEverythingIsUndone) {
 }
 
 TEST_F(ManagedWindow, MouseSelectsAndOrbits) {
+  stop_at_the_files_samples();
   ASSERT_FALSE(widgets().contains("object.type"));
   point_at("image", 0.5, 0.95);
   xdotool("sleep 0.05 click 1 sleep 0.05");
@@ -223,8 +222,6 @@ TEST_F(ManagedWindow, MouseSelectsAndOrbits) {
 }
 
 TEST_F(ManagedWindow, MinimisedItRestsAndComesBack) {
-  click("tab.estimator");
-  click("render.spp", 0.98);  // so many samples that it does not finish
   ASSERT_TRUE(wait_for([&, before = pictures()] { return pictures() > before + 3; }));
   xdotool("windowsize --sync " + in_window() + " 900 640");
   ASSERT_TRUE(wait_for([] { return widgets()["snapshot"][0] < 900; }));
@@ -246,6 +243,7 @@ TEST_F(ManagedWindow, MinimisedItRestsAndComesBack) {
 }
 
 TEST_F(ManagedWindow, SnapshotReopensAsTheSamePicture) {
+  stop_at_the_files_samples();
   click("object.glass");
   choose("object.type", "oren-nayar");
   drag("exposure", 0.5, 0.55);
@@ -265,6 +263,7 @@ TEST_F(ManagedWindow, SnapshotReopensAsTheSamePicture) {
 }
 
 TEST_F(ManagedWindow, FollowsItsFile) {
+  stop_at_the_files_samples();
   Scene other = room_;
   other.spheres[0].radius = 0.5;
   std::ofstream("room.toml") << write_scene(other);
@@ -292,7 +291,6 @@ TEST_F(ManagedWindow, SettingsSurviveARestartAndDamage) {
   const auto& r = widgets()["snapshot"];
   EXPECT_LT(r[0] + r[2], 1000) << "as large as it was";
   point_at("image");
-  ASSERT_TRUE(wait_for([] { return finished(); }));
   snapshot("room");
   EXPECT_EQ(read_metadata(last_snapshot_).at("tone"), "filmic");
   close_window();
