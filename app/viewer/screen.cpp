@@ -170,9 +170,8 @@ void Screen::drop(const std::filesystem::path& file, Edits& edits) const {
 void Screen::draw_column(const ViewerState& state, const Rect& place, Edits& edits) {
   begin_fixed_window("controls", place, 16, 14);
   draw_progress_panel(state, edits);
-  ImGui::Dummy({0, style::scaled(2)});
   draw_actions_panel(state, edits);
-  ImGui::Dummy({0, style::scaled(4)});
+  ImGui::Dummy({0, style::scaled(2)});
   draw_display_panel(state, edits);
   draw_compare_panel(state, edits);
   ImGui::Dummy({0, style::scaled(4)});

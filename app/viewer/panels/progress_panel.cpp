@@ -42,17 +42,21 @@ double share_done(const Settings& settings, const Frame& frame) {
   return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.relmse_estimate) : 0;
 }
 
-/// The error of the picture so far against time, both logarithmic. An error that falls as 1 / time is a straight line.
-void draw_trend(const ViewerState& state, const Frame& frame) {
-  const float width = ImGui::GetContentRegionAvail().x, height = style::scaled(30);
+/// The error of the picture so far against time, both logarithmic, in what is left of the row. An error that falls as
+/// 1 / time is a straight line. Where there is a target, the share of the way to it is filled.
+void draw_trend(const ViewerState& state, const Frame& frame, bool ends, double share) {
+  ImGui::SameLine(0, style::scaled(8));
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + width, at.y + height}, style::well, style::scaled(3));
+  const float filled = ends ? static_cast<float>(share) * width : 0;
+  list.AddRectFilled(at, {at.x + filled, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBgActive), style::scaled(3));
   ImGui::Dummy({width, height});
-  note_widget("trend");
+  note_widget(ends ? "progress" : "trend");
   tooltip(
       "The estimated error so far against time, both logarithmic. A straight line down is an error that falls as "
-      "1 / time.");
+      "1 / time. What is filled is the way to where rendering stops.");
   const Curve* curve = state.chart.curves.current();
   std::vector<ImVec2> logs;
   if (curve && frame.samples > 1)
@@ -62,7 +66,7 @@ void draw_trend(const ViewerState& state, const Frame& frame) {
   if (logs.size() < 2) return;
   const auto [low, high] = std::ranges::minmax(logs, {}, &ImVec2::y);
   const float left = logs.front().x, across = std::max(logs.back().x - left, 1e-3F);
-  const float up = std::max(high.y - low.y, 1e-3F), pad = style::scaled(5);
+  const float up = std::max(high.y - low.y, 1e-3F), pad = style::scaled(3);
   for (ImVec2& p : logs)
     p = {at.x + pad + (p.x - left) / across * (width - 2 * pad), at.y + pad + (high.y - p.y) / up * (height - 2 * pad)};
   list.AddPolyline(logs.data(), static_cast<int>(logs.size()), ImGui::GetColorU32(ImGuiCol_PlotHistogram),
@@ -137,10 +141,6 @@ void draw_progress_panel(const ViewerState& state, Edits& edits) {
   const Settings& settings = state.scene.render;
   const bool ends = has_target(settings), by_error = settings.target_error > 0;
   const double share = share_done(settings, frame);
-  if (ends)
-    ImGui::ProgressBar(static_cast<float>(share), {-FLT_MIN, style::scaled(6)}, "");
-  else
-    draw_trend(state, frame);
   const std::string of = ends && !by_error ? " of " + std::to_string(settings.spp) : "";
   text_row("Samples / pixel", std::to_string(frame.samples) + of,
            "Paths traced so far through each pixel. Four times as many halve the noise.");
@@ -150,6 +150,7 @@ void draw_progress_panel(const ViewerState& state, Edits& edits) {
       std::isfinite(frame.relmse_estimate) && frame.samples > 1 ? number("%.3g", frame.relmse_estimate) + aim : dash,
       "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
       "as 1 / samples.");
+  draw_trend(state, frame, ends, share);
   text_row("Speed", number("%.1f Mpaths/s", frame.paths_per_second / 1e6),
            "Millions of paths from the camera in a second.");
   const bool to_come = ends && share > 0 && share < 1;

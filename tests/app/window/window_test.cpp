@@ -176,7 +176,7 @@ TEST_F(ManagedWindow, EverySliderMovesAndEverythingIsUndone) {
   Scene edited;  // a snapshot shows what is on the screen, which is a moment behind
   ASSERT_TRUE(wait_for([&] {
     edited = snapshot("room");
-    return edited.image != room_.image;
+    return edited.image != room_.image && edited.render.shadow_rays != room_.render.shadow_rays;
   }));
   EXPECT_NE(material_of(edited, "oren-nayar").get(OrenNayar::roughness),
             material_of(room_, "oren-nayar").get(OrenNayar::roughness));
