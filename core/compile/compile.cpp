@@ -222,7 +222,7 @@ CompiledScene compile(const Scene& as_edited) {
   CoincidenceNotes notes;
   move_eye_off_surfaces(scene, warnings);
   Reach reach = find_reach(scene);
-  if (separate_coincident(scene, reach, notes)) reach = find_reach(scene);
+  if (separate_coincident(scene, reach, notes)) gather_objects(scene, reach);
   Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;

@@ -87,8 +87,20 @@ Reach find_reach(const Scene& scene) {
   const std::vector<Face> faces = faces_of(scene);
   const bool cutaway = scene.camera.cutaway == Cutaway::on;
   reach.inside = cutaway ? place_in_room(scene, scene.camera.eye) : std::optional(scene.camera.eye);
-  if (reach.inside) reach.room = find_room(faces, *reach.inside, reach.tolerance);
+  // Looking for a room takes long among many planes; a view of the open rules one out.
+  if (reach.inside && is_enclosed(scene, *reach.inside)) reach.room = find_room(faces, *reach.inside, reach.tolerance);
   reach.camera_outside = !cutaway && reach.room.empty() && is_outside(scene, faces, reach.tolerance);
+  gather_objects(scene, reach);
+  return reach;
+}
+
+void gather_objects(const Scene& scene, Reach& reach) {
+  reach.spheres.clear();
+  reach.polygons.clear();
+  reach.meshes.clear();
+  reach.lamp_pierces_room = false;
+  reach.left_out.clear();
+  reach.warnings.clear();
   if (reach.camera_outside)
     reach.warnings.emplace_back(
         "the camera is outside the room, whose walls hide what is in it: move it into the room, or see through them "
@@ -140,7 +152,6 @@ Reach find_reach(const Scene& scene) {
     }
   }
   for (const Sphere& s : scene.spheres) keep(s, {s.center}, s.radius, reach.spheres, &s);
-  return reach;
 }
 
 }  // namespace glimt

@@ -29,6 +29,9 @@ struct Reach {
 /// Finds the room and drops what is behind its faces, or coincides with them (the room wins).
 Reach find_reach(const Scene& scene);
 
+/// What of the scene's objects is in reach, anew: for objects that were moved or left out since the room was found.
+void gather_objects(const Scene& scene, Reach& reach);
+
 /// Meshes with this many triangles or fewer may be part of the room.
 inline constexpr std::size_t max_room_mesh_triangles = 64;
 
