@@ -5,11 +5,13 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "scene/fields.h"
 #include "viewer/chart_view/chart_panel.h"
 #include "viewer/keys.h"
 #include "viewer/picture/notice.h"
@@ -37,6 +39,13 @@ std::string bytes_of(const ImDrawData& data) {
     add(list->IdxBuffer.Data, list->IdxBuffer.Size);
   }
   return bytes;
+}
+
+ImageSize room_of(const Layout& layout, float ratio) {
+  const auto side = [ratio](float length) {
+    return std::clamp(static_cast<int>(std::lround(length * ratio)), 1, static_cast<int>(image_fields()[0].max));
+  };
+  return {side(layout.image.width), side(layout.image.height)};
 }
 
 }  // namespace
@@ -68,6 +77,13 @@ void Screen::set_scale(float scale, float ratio) {
   ImGui_ImplOpenGL2_CreateFontsTexture();
 }
 
+ImageSize room_in_window(int width, int height, bool chart) {
+  Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height), 1);
+  const ImageSize shape = room_of(layout, 1);
+  if (chart) layout = with_chart(layout, shape.width, shape.height, 1);
+  return room_of(layout, 1);
+}
+
 void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   const ImGuiIO& io = ImGui::GetIO();
   const float ratio = io.DisplayFramebufferScale.x;
@@ -80,8 +96,12 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   const ImageSize& size = state.scene.image;
   Layout layout = make_layout(io.DisplaySize.x, io.DisplaySize.y, scale);
   const Rect sheets = layout.image;  // which may lie over the chart
-  if (state.chart.view.shown) layout = with_chart(layout, size.width, size.height, scale);
+  if (state.chart.view.shown) {
+    const ImageSize shape = state.fits_window ? room_of(layout, ratio) : size;
+    layout = with_chart(layout, shape.width, shape.height, scale);
+  }
   chart_ = layout.chart;
+  edits.room = room_of(layout, ratio);
   const Placement picture = place_image(size.width, size.height, layout.image, ratio, tool_.zoom());
   image_->draw(state.frame, state.display, layout.image, picture);
   compare_->draw(state, layout.image, picture);

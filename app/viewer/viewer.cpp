@@ -113,9 +113,13 @@ struct Platform {
   Platform& operator=(const Platform&) = delete;
 };
 
-/// Sleeps until there is something to draw and the display can show it.
-void wait(double next_picture, bool settled) {
-  if (settled) glfwWaitEvents();
+/// Sleeps until there is something to draw and the display can show it. `fitting`: before long, without an event.
+void wait(double next_picture, bool settled, bool fitting) {
+  constexpr double while_fitting = 0.02;  // seconds
+  if (settled && fitting)
+    glfwWaitEventsTimeout(while_fitting);
+  else if (settled)
+    glfwWaitEvents();
   for (double left; (left = next_picture - glfwGetTime()) > 0;) glfwWaitEventsTimeout(left);
   glfwPollEvents();
 }
@@ -131,7 +135,8 @@ void remember(const Window& window, const ViewerState& state) {
                           .folder = state.folder,
                           .hint_seen = !state.hint,
                           .chart = state.chart.view,
-                          .drag_view = state.drag_view};
+                          .drag_view = state.drag_view,
+                          .fits_window = state.fits_window};
   window.size(settings.width, settings.height);
   try {
     write_window_settings(file, settings);
@@ -145,7 +150,10 @@ void run(const std::filesystem::path& scene_file) {
   std::string note;
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
-  Controller controller(std::move(scene), scene_file, [] { glfwPostEmptyEvent(); });
+  std::optional<ImageSize> room;
+  if (settings.fits_window) room = room_in_window(settings.width, settings.height, settings.chart.shown);
+  Controller controller(
+      std::move(scene), scene_file, [] { glfwPostEmptyEvent(); }, {}, {}, room);
   controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note, settings.drag_view);
   const Window window(settings.width, settings.height);
   Inbox in;
@@ -159,7 +167,7 @@ void run(const std::filesystem::path& scene_file) {
   double next_picture = 0, painted_at = 0, patient_until = 0;
   int unsettled = pictures_to_settle;
   while (!in.edits.quit) {
-    wait(next_picture, unsettled == 0);
+    wait(next_picture, unsettled == 0, controller.fitting());
     const std::string said = controller.state().message.text;
     if (controller.poll())
       unsettled = std::max(unsettled, controller.state().message.text == said ? 1 : pictures_to_settle);

@@ -41,6 +41,9 @@ Window::Window(int width_wanted, int height_wanted) {
       glfwSetWindowSize(handle_, std::min(width, free_width), std::min(height, free_height));
     }
   }
+  // Less would cut off the column's numbers, or leave no room for the picture.
+  const auto least = [this](float length) { return static_cast<int>(std::lround(length * scale())); };
+  glfwSetWindowSizeLimits(handle_, least(704), least(560), GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwShowWindow(handle_);
   glfwMakeContextCurrent(handle_);
   glfwSwapInterval(1);

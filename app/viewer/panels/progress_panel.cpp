@@ -51,7 +51,9 @@ void draw_trend(const ViewerState& state, const Frame& frame, bool ends, double 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + width, at.y + height}, style::well, style::scaled(3));
   const float filled = ends ? static_cast<float>(share) * width : 0;
-  list.AddRectFilled(at, {at.x + filled, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBgActive), style::scaled(3));
+  if (filled > 0)
+    list.AddRectFilled(at, {at.x + filled, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBgActive),
+                       style::scaled(3));
   ImGui::Dummy({width, height});
   note_widget(ends ? "progress" : "trend");
   tooltip(

@@ -39,9 +39,12 @@ bool is_black(const Frame& frame) {
 }  // namespace
 
 Controller::Controller(Scene scene, fs::path file, const std::function<void()>& wake, Execution execution,
-                       const RenderGoal& goal)
+                       const RenderGoal& goal, const std::optional<ImageSize>& room)
     : snapshots_(wake), watch_(wake), session_(execution, wake), charting_(state_.chart, wake, execution) {
+  state_.fits_window = room.has_value();
+  if (room) state_.room = next_room_ = *room;
   state_.opened_camera = scene.camera;
+  state_.opened_size = scene.image;
   const RenderGoal first = goal_for(scene, goal);
   show(Document{std::make_shared<const Scene>(std::move(scene)), {}, first});
   set_file(std::move(file));
@@ -74,6 +77,7 @@ bool Controller::poll() {
   news |= charting_.poll(error);
   if (!error.empty()) state_.message = {error, true};
   leave_machine_to_chart();
+  news |= fit_to_room();
   take_wanted_snapshots();
   if (auto message = snapshots_.take_message()) {
     state_.message = std::move(*message);
@@ -91,9 +95,19 @@ void Controller::apply(const Edits& edits) {
   if (edits.folder) state_.folder = *edits.folder;
   if (edits.select) state_.selected = *edits.select;
   if (edits.dismiss_hint || edits.scene || edits.select) state_.hint = false;
+  if (edits.room && *edits.room != next_room_) {
+    next_room_ = *edits.room;
+    room_changed_ = std::chrono::steady_clock::now();
+  }
+  const bool fitted = state_.fits_window;
+  if (edits.fits_window) {
+    state_.fits_window = *edits.fits_window;
+    state_.room = next_room_;
+  }
   if (edits.scene || edits.goal) {
     Document after = now();
-    if (edits.scene) after.scene = std::make_shared<const Scene>(as_filed(*edits.scene, *after.scene));
+    if (edits.scene)
+      after.scene = std::make_shared<const Scene>(as_filed(*edits.scene, *after.scene, state_.fits_window));
     if (edits.goal) after.goal = *edits.goal;
     try {
       edit(after, edits.gesture);
@@ -101,6 +115,7 @@ void Controller::apply(const Edits& edits) {
       state_.message = {error.what(), true};
     }
   }
+  if (state_.fits_window != fitted) show(now());
   if (edits.undo) show(history_.undo(now()));
   if (edits.redo) show(history_.redo(now()));
   if (edits.open) open(*edits.open);
@@ -152,6 +167,14 @@ void Controller::edit(const Document& after, std::uint64_t gesture) {
 
 Document Controller::now() const { return {state_.filed, state_.file, state_.goal}; }
 
+bool Controller::fit_to_room() {
+  constexpr auto rest = std::chrono::milliseconds(150);
+  if (!fitting() || std::chrono::steady_clock::now() - room_changed_ < rest) return false;
+  state_.room = next_room_;
+  show(now());
+  return true;
+}
+
 void Controller::show(const std::optional<Document>& document) {
   if (!document) return;
   show(*document);
@@ -159,7 +182,12 @@ void Controller::show(const std::optional<Document>& document) {
 }
 
 void Controller::show(const Document& document, std::uint64_t gesture) {
-  auto scene = std::make_shared<const Scene>(as_shown(*document.scene, document.goal));
+  const auto size = state_.fits_window ? std::optional(state_.room) : std::nullopt;
+  auto scene = std::make_shared<const Scene>(as_shown(*document.scene, document.goal, size));
+  if (posted_scene_ && *scene == *posted_scene_ && document.goal == state_.goal) {
+    state_.filed = document.scene;
+    return;
+  }
   state_.version = session_.post(*scene);
   state_.compiled = session_.compiled();
   state_.scene = *scene;
@@ -198,6 +226,7 @@ void Controller::open(const fs::path& file) {
 void Controller::open_scene(const fs::path& file) {
   Scene scene = read_scene(file);
   const RenderGoal goal = goal_for(scene, state_.goal);
+  state_.opened_size = scene.image;
   edit({std::make_shared<const Scene>(std::move(scene)), state_.file, goal});
   set_file(file);
   state_.message = {"Opened " + file.filename().string()};
@@ -213,6 +242,7 @@ void Controller::open_picture(const fs::path& file) {
   RenderGoal goal = state_.goal;
   goal.stop_at = StopAt::samples;
   goal.samples = made.render.spp;
+  state_.fits_window = false;
   edit({std::make_shared<const Scene>(std::move(made)), state_.file, goal});
   set_file(file);
   if (metadata.contains("exposure")) state_.display = read_display(metadata);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -21,10 +22,13 @@ class Controller {
  public:
   /// Starts to render the scene, which is from `file`. `wake` is called on other threads when poll() has news. Throws
   /// SceneError.
+  /// With `room` the picture has the size of the room for it in the window, framebuffer pixels.
   Controller(Scene scene, std::filesystem::path file, const std::function<void()>& wake, Execution execution = {},
-             const RenderGoal& goal = {});
+             const RenderGoal& goal = {}, const std::optional<ImageSize>& room = {});
 
   const ViewerState& state() const { return state_; }
+  /// poll() will have news though nothing wakes the window: the room for the picture has changed.
+  bool fitting() const { return state_.fits_window && next_room_ != state_.room; }
   /// What the window remembers from its last start. To be called before the first edits.
   void recall(const Display& display, const ChartView& chart, std::filesystem::path folder, bool show_hint,
               const std::string& note, DragView drag_view = DragView::automatic);
@@ -42,6 +46,8 @@ class Controller {
   void show(const Document& document, std::uint64_t gesture = 0);
   void show(const std::optional<Document>& document);
   void edit(const Document& after, std::uint64_t gesture = 0);
+  /// Gives the picture the size of its room, once that has rested for a while. False where it has it already.
+  bool fit_to_room();
   void set_file(std::filesystem::path file);
   void open(const std::filesystem::path& file);
   void open_scene(const std::filesystem::path& file);
@@ -54,6 +60,8 @@ class Controller {
   void take_wanted_snapshots();
 
   ViewerState state_;
+  ImageSize next_room_{};  ///< for the picture; becomes state_.room once the window is not being resized any more
+  std::chrono::steady_clock::time_point room_changed_;
   std::string stem_;                           ///< of snapshots
   std::shared_ptr<const Scene> posted_scene_;  ///< the same as state_.scene
   History history_;

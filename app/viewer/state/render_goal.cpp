@@ -10,7 +10,8 @@ RenderGoal goal_for(const Scene& scene, RenderGoal goal) {
   return goal;
 }
 
-Scene as_shown(Scene scene, const RenderGoal& goal) {
+Scene as_shown(Scene scene, const RenderGoal& goal, const std::optional<ImageSize>& size) {
+  if (size) scene.image = *size;
   Settings& settings = scene.render;
   // Sub-pixel centres are as many as the samples: the number is a part of the method, and ends it.
   const bool counted = settings.sampler == Sampler::centres;
@@ -22,7 +23,8 @@ Scene as_shown(Scene scene, const RenderGoal& goal) {
   return scene;
 }
 
-Scene as_filed(Scene shown, const Scene& before) {
+Scene as_filed(Scene shown, const Scene& before, bool window_gave_size) {
+  if (window_gave_size) shown.image = before.image;
   shown.render.spp = before.render.spp;
   shown.render.target_error = before.render.target_error;
   return shown;

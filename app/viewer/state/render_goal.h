@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "scene/scene.h"
@@ -25,10 +26,11 @@ struct RenderGoal {
 /// them.
 RenderGoal goal_for(const Scene& scene, RenderGoal goal);
 
-/// The scene of a file as the window renders it.
-Scene as_shown(Scene scene, const RenderGoal& goal);
-/// What a file is to hold of a scene that was edited as shown; `before` is what it held before.
-Scene as_filed(Scene shown, const Scene& before);
+/// The scene of a file as the window renders it; `size` is the picture's where the window gives it one.
+Scene as_shown(Scene scene, const RenderGoal& goal, const std::optional<ImageSize>& size);
+/// What a file is to hold of a scene that was edited as shown; `before` is what it held before. The picture's size is
+/// the file's where the window has not given it.
+Scene as_filed(Scene shown, const Scene& before, bool window_gave_size);
 
 /// The rendering ends by itself.
 bool has_target(const Settings& settings);

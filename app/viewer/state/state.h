@@ -30,7 +30,10 @@ struct ViewerState {
   RenderGoal goal;                                ///< how far the scene is rendered
   std::uint64_t version = 0;                      ///< of the scene; frames of this or a later one show it
   std::shared_ptr<const CompiledScene> compiled;  ///< of the scene
+  bool fits_window = false;                       ///< the picture has the size of the room for it in the window
+  ImageSize room{};                               ///< for the picture, framebuffer pixels
   Camera opened_camera;                           ///< as it was in the file, to come back to
+  ImageSize opened_size{};                        ///< the same for the picture's size
   std::filesystem::path file;                     ///< that the scene is from; empty for a picture's scene
   std::filesystem::path folder;                   ///< last looked into for files
   std::optional<ObjectId> selected;               ///< always one of the scene
@@ -64,6 +67,8 @@ struct Edits {
   std::optional<RenderGoal> goal;
   std::uint64_t gesture =
       0;  ///< edits of scene and goal that follow each other in one gesture, as in a drag, are undone as one
+  std::optional<bool> fits_window;  ///< with false, the size of `scene` is the picture's from now on
+  std::optional<ImageSize> room;    ///< for the picture, as it is laid out now
   std::optional<Display> display;
   std::optional<std::optional<ObjectId>> select;  ///< an object, or none
   std::optional<std::filesystem::path> open;      ///< a scene file, or a picture that glimt has written

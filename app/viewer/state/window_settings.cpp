@@ -38,6 +38,7 @@ WindowSettings read_table(const toml::table& table) {
   take_side(table, "height", settings.height);
   take(table, "hint_seen", settings.hint_seen);
   take(table, "chart", settings.chart.shown);
+  take(table, "picture_fits_window", settings.fits_window);
   bool by_samples = false;
   take(table, "chart_by_samples", by_samples);
   if (by_samples) settings.chart.across = Across::samples;
@@ -83,6 +84,7 @@ void write_window_settings(const fs::path& file, const WindowSettings& settings)
                      "\nhint_seen = " + truth(settings.hint_seen) + "\nchart = " + truth(settings.chart.shown) +
                      "\nchart_by_samples = " + truth(settings.chart.across == Across::samples) +
                      "\ndrag_view = " + toml_string(drag_view_names[static_cast<std::size_t>(settings.drag_view)]) +
+                     "\npicture_fits_window = " + truth(settings.fits_window) +
                      "\nfolder = " + toml_string(settings.folder.string()) + "\n";
   for (const auto& [key, value] : display_texts(settings.display)) text += key + " = " + toml_string(value) + "\n";
   std::error_code failed;  // writing says what is wrong

@@ -17,6 +17,7 @@ struct WindowSettings {
   bool hint_seen = false;        ///< the line for a first start was read
   ChartView chart;
   DragView drag_view = DragView::automatic;
+  bool fits_window = true;  ///< the picture has the size of the room for it
 };
 
 /// glimt/window.toml in the user's configuration directory ($XDG_CONFIG_HOME, else ~/.config); empty where there is

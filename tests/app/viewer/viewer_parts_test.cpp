@@ -88,17 +88,21 @@ TEST(RenderGoal, StopsTheWindowAndLeavesTheFile) {
   Scene file;
   file.render.spp = 50;
   file.render.target_error = 0.25;
-  EXPECT_FALSE(has_target(as_shown(file, {}).render));
-  const Scene samples = as_shown(file, {.stop_at = StopAt::samples, .samples = 7});
+  EXPECT_FALSE(has_target(as_shown(file, {}, {}).render));
+  const Scene samples = as_shown(file, {.stop_at = StopAt::samples, .samples = 7}, {});
   EXPECT_EQ(samples.render.spp, 7);
   EXPECT_EQ(samples.render.target_error, 0);
-  EXPECT_EQ(as_shown(file, {.stop_at = StopAt::error, .error = 0.5}).render.target_error, 0.5);
-  EXPECT_EQ(as_filed(samples, file), file);
+  EXPECT_EQ(as_shown(file, {.stop_at = StopAt::error, .error = 0.5}, {}).render.target_error, 0.5);
+  EXPECT_EQ(as_filed(samples, file, false), file);
   EXPECT_EQ(goal_for(file, {}).samples, 50);
   EXPECT_EQ(goal_for(file, {}).error, 0.25);
+  const Scene fitted = as_shown(file, {}, ImageSize{123, 45});
+  EXPECT_EQ(fitted.image, (ImageSize{123, 45}));
+  EXPECT_EQ(as_filed(fitted, file, true), file);
+  EXPECT_EQ(as_filed(fitted, file, false).image, fitted.image) << "a size that was typed";
   // The grid of sub-pixel centres has as many cells as there are samples.
   file.render.sampler = Sampler::centres;
-  EXPECT_EQ(as_shown(file, {}).render.spp, 50);
+  EXPECT_EQ(as_shown(file, {}, {}).render.spp, 50);
 }
 
 Document document(const std::string& name) {

@@ -202,6 +202,39 @@ TEST(Viewer, SampleTargetGoesOnAndShadowRaysRestart) {
   EXPECT_GT(window.state().version, version);
 }
 
+TEST(Viewer, PictureFollowsTheWindow) {
+  const Scene room = small_room(2);
+  Offscreen window(room, window_width, window_height);
+  Edits fit;
+  fit.fits_window = true;
+  window.apply(fit);
+  const auto is_pixel_by_pixel = [&] {
+    const Rect r = window.widget("image");
+    const ImageSize size = window.state().frame->size;
+    return size == window.state().room && r.width == static_cast<float>(size.width) &&
+           r.height == static_cast<float>(size.height);
+  };
+  ASSERT_TRUE(window.draw_until_finished());
+  EXPECT_TRUE(is_pixel_by_pixel());
+  EXPECT_EQ(*window.state().filed, room) << "the file's size stays";
+  EXPECT_FALSE(window.state().can_undo);
+
+  // While the window is dragged larger and smaller nothing is rendered anew; once it rests, the picture is.
+  const auto version = window.state().version;
+  for (int k = 1; k <= 10; ++k) {
+    ImGui::GetIO().DisplaySize = {static_cast<float>(window_width - 10 * k), static_cast<float>(window_height - k)};
+    window.draw(1);
+  }
+  EXPECT_EQ(window.state().version, version);
+  ASSERT_TRUE(window.draw_until([&] { return window.state().version != version; }));
+  ASSERT_TRUE(window.draw_until_finished());
+  EXPECT_TRUE(is_pixel_by_pixel());
+
+  fit.fits_window = false;
+  window.apply(fit);
+  EXPECT_EQ(window.state().scene.image, room.image) << "as in the file";
+}
+
 // The file's target is for the command line: the window renders past it, and leaves it as it is.
 TEST(Viewer, GoesOnPastTheFilesTargetUntilATargetIsSet) {
   const Scene room = small_room(4);
