@@ -32,7 +32,18 @@ void text_to_right(float right, float y, ImU32 colour, const std::string& text) 
   ImGui::GetWindowDrawList()->AddText({right - width, y}, colour, text.c_str());
 }
 
-std::string number(const std::optional<double>& value) { return value ? short_number(*value) : "\u2013"; }
+constexpr const char* dash = "\u2013";
+
+std::string number(const std::optional<double>& value) { return value ? short_number(*value) : dash; }
+
+/// "4.2x", and from a thousand on "1.1e3x".
+std::string ratio_text(double ratio) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", ratio);
+  std::string large = text;
+  if (const auto plus = large.find("e+0"); plus != std::string::npos) large.erase(plus + 1, 2);
+  return (ratio < 1000 ? short_number(ratio) : large) + "\u00D7";
+}
 
 /// What the list says of a curve.
 std::array<std::string, 3> numbers_of(const ChartState& chart, const Curve& curve,
@@ -46,7 +57,7 @@ std::array<std::string, 3> numbers_of(const ChartState& chart, const Curve& curv
   if (base == &curve) return {number(error), number(place), "base"};
   const bool at_time = pointer && axis == Across::seconds;
   const auto ratio = efficiency_ratio(curve, *base, at_time ? std::optional(pointer->x) : std::nullopt);
-  return {number(error), number(place), ratio ? short_number(*ratio) + "\u00D7" : "\u2013"};
+  return {number(error), number(place), ratio ? ratio_text(*ratio) : dash};
 }
 
 void draw_head(const ChartState& chart, const std::optional<PlotPoint>& pointer) {
@@ -84,8 +95,11 @@ void draw_row(const ChartState& chart, const Curve& curve, std::size_t index, co
   if (!curve.shown) style.colour = IM_COL32(80, 84, 92, 255);
   draw_sample({columns.sample, y, style::scaled(sample_width), height}, style);
 
+  const bool told = error_of(curve.points.back(), error_kind(curve)).has_value();
+  const char* const unknown =
+      "\nNot comparable: its picture has no light yet, or an error too small for its two halves to tell";
   if (part("label", columns.label, columns.numbers.back(), "base",
-           curve.label + "\nClick: efficiencies are told as multiples of this one's"))
+           curve.label + (told ? "" : unknown) + "\nClick: efficiencies are told as multiples of this one's"))
     edits.base_curve = curve.id;
   const bool current = &curve == chart.curves.current();
   const ImU32 colour = !curve.shown ? style::muted : current ? style::outline : ImGui::GetColorU32(ImGuiCol_Text);

@@ -14,7 +14,7 @@ std::optional<double> interpolated(const Curve& curve, ErrorKind kind, Across ax
   std::optional<std::pair<double, double>> last;  // place and error of the point before, logarithms
   for (const RunPoint& point : curve.points) {
     const auto error = error_of(point, kind);
-    if (!error || !(*error > 0)) continue;
+    if (!error) continue;
     const std::pair now{std::log(across(point, axis)), std::log(*error)};
     const double wanted = std::log(value);
     const auto [x0, y0] = last.value_or(now);
@@ -50,8 +50,9 @@ void append(std::vector<RunPoint>& points, const RunPoint& point) {
 double across(const RunPoint& point, Across axis) { return axis == Across::seconds ? point.seconds : point.samples; }
 
 std::optional<double> error_of(const RunPoint& point, ErrorKind kind) {
-  if (kind == ErrorKind::estimate) return point.estimate;
-  return point.error ? std::optional(point.error->relmse) : std::nullopt;
+  if (kind == ErrorKind::reference && !point.error) return std::nullopt;
+  const double error = kind == ErrorKind::estimate ? point.estimate : point.error->relmse;
+  return error >= least_told && std::isfinite(error) ? std::optional(error) : std::nullopt;
 }
 
 ErrorKind error_kind(const Curve& curve) {
@@ -80,7 +81,7 @@ std::optional<double> efficiency_ratio(const Curve& curve, const Curve& base, st
     return error ? std::optional(*error * c.points.back().seconds) : std::nullopt;
   };
   const auto own = work(curve), other = work(base);
-  return own && other && *own > 0 ? std::optional(*other / *own) : std::nullopt;
+  return own && other ? std::optional(*other / *own) : std::nullopt;
 }
 
 const Curve* Curves::find(std::uint64_t id) const {

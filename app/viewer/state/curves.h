@@ -35,8 +35,11 @@ struct Curve {
 enum class Across { seconds, samples };
 double across(const RunPoint& point, Across axis);
 
-/// The error that a curve stands for: against the reference, or the estimate. Nothing where the point has none.
+/// The error that a curve stands for: against the reference, or the estimate. Nothing where the point has none, and
+/// where it is below `least_told`: the picture has no light yet, or a lit pixel in so few of its blocks that the halves
+/// hardly differ.
 enum class ErrorKind { estimate, reference };
+inline constexpr double least_told = 1e-9;
 std::optional<double> error_of(const RunPoint& point, ErrorKind kind);
 /// `reference` where the curve has a point that was compared with it.
 ErrorKind error_kind(const Curve& curve);

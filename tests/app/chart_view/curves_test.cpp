@@ -67,6 +67,20 @@ TEST(Curves, EfficiencyIsARatioToTheBase) {
   EXPECT_NEAR(efficiency_ratio(compared, compared, std::nullopt).value(), 1, 1e-9);
 }
 
+// A black picture's halves do not differ, and a few lit pixels in it hardly do: that is no praise.
+TEST(Curves, APictureWithoutLightHasNoErrorAndNoEfficiency) {
+  const Curve base = power_law(0.02);
+  for (const double nothing : {0.0, 9e-10, std::numeric_limits<double>::infinity()}) {
+    Curve black = base;
+    for (RunPoint& point : black.points) point.estimate = nothing;
+    EXPECT_FALSE(error_of(black.points.back(), ErrorKind::estimate)) << nothing;
+    EXPECT_FALSE(error_at(black, ErrorKind::estimate, Across::seconds, 1)) << nothing;
+    EXPECT_FALSE(efficiency_ratio(black, base, 1)) << nothing;
+    EXPECT_FALSE(efficiency_ratio(black, base, std::nullopt)) << nothing;
+    EXPECT_FALSE(efficiency_ratio(base, black, std::nullopt)) << nothing;
+  }
+}
+
 TEST(Curves, LabelsSayWhatDiffersFromTheFirst) {
   Curves curves;
   Scene scene = room();
