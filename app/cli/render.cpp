@@ -29,18 +29,17 @@ void stop_on_interrupt() {
 
 Goal goal_of(const RenderOptions& options, const Settings& settings) {
   if (options.seconds) return {.spp = max_spp, .seconds = *options.seconds};
-  if (settings.target_error > 0) return {.spp = max_spp, .relmse_estimate = settings.target_error};
+  if (settings.target_error > 0) return {.spp = max_spp, .relmse_scaled = settings.target_error};
   return {.spp = settings.spp};
 }
 
 /// On standard output, or beside it where the picture goes there.
-void print_summary(const RenderOptions& options, const Film& film, double seconds, double estimate) {
+void print_summary(const RenderOptions& options, const Film& film, double seconds, const ErrorEstimate& estimate) {
   const double paths = static_cast<double>(film.width()) * film.height() * film.samples();
   std::FILE* const stream = options.out == "-" ? stderr : stdout;
   const std::string name = options.out == "-" ? "standard output" : options.out.string();
-  std::fprintf(stream, "%s: %d spp in %.2f s, %.1f Mpaths/s, estimated relmse ", name.c_str(), film.samples(), seconds,
-               paths / seconds / 1e6);
-  std::fprintf(stream, film.samples() < 2 ? "unknown from one sample\n" : "%.3g\n", estimate);
+  std::fprintf(stream, "%s: %d spp in %.2f s, %.1f Mpaths/s, %s\n", name.c_str(), film.samples(), seconds,
+               paths / seconds / 1e6, trust_text(estimate).c_str());
 }
 
 void warn_of_counters(const Film& film) {
@@ -71,7 +70,7 @@ int run_render(const RenderOptions& options) {
   write_image(options.out, film, display, render_metadata(scene, film.samples(), rendering.seconds));
   if (!options.stats.empty())
     replace_file(options.stats, stats_json(scene, film, options.execution, rendering.seconds));
-  const double estimate = relmse_estimate(film);
+  const ErrorEstimate estimate = estimate_error(film);
   if (!options.quiet) print_summary(options, film, rendering.seconds, estimate);
   warn_of_counters(film);
   if (!rendering.reached) {
@@ -79,7 +78,7 @@ int run_render(const RenderOptions& options) {
                  film.samples());
     return 1;
   }
-  if (estimate > goal.relmse_estimate && goal.relmse_estimate > 0) {
+  if (goal.relmse_scaled > 0 && film.samples() >= goal.spp && estimate.relmse_scaled > goal.relmse_scaled) {
     std::fprintf(stderr, "the error asked for is not reached with %d samples per pixel, the most there can be\n",
                  goal.spp);
     return 1;

@@ -37,6 +37,7 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
   Rendering result;
   const double pixels = static_cast<double>(film.width()) * film.height();
   double estimate = std::numeric_limits<double>::infinity(), estimate_seconds = 0, estimated_at = 0;
+  const bool unlit = scene.max_radiance == 0;  // black is right at once
   int check = first_check, count = 1;
   do {
     const double pass = seconds_of([&] { render_pass(scene, film, count, execution); });
@@ -44,21 +45,21 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
     const double sample_seconds = pass / count;
     const double seconds_left = goal.seconds - result.seconds;
 
-    const bool checked = goal.relmse_estimate > 0 && film.samples() >= check;
-    const bool shown = report && goal.relmse_estimate == 0 && film.samples() >= 2 &&
+    const bool checked = goal.relmse_scaled > 0 && film.samples() >= check;
+    const bool shown = report && goal.relmse_scaled == 0 && film.samples() >= 2 &&
                        result.seconds - estimated_at >= estimate_share * estimate_seconds;
     if (checked || shown) {
-      estimate_seconds = seconds_of([&] { estimate = relmse_estimate(film); });
+      estimate_seconds = seconds_of([&] { estimate = estimate_error(film).relmse_scaled; });
       estimated_at = result.seconds;
     }
-    if (checked) check = next_check(film.samples(), estimate, goal.relmse_estimate);
+    if (checked) check = next_check(film.samples(), estimate, goal.relmse_scaled);
     result.reached = film.samples() >= goal.spp || seconds_left < sample_seconds / 2 ||
-                     (checked && estimate <= goal.relmse_estimate);
+                     (checked && (estimate <= goal.relmse_scaled || unlit));
 
     if (report) {
       const double samples = film.samples();
       double samples_needed = goal.spp;
-      if (goal.relmse_estimate > 0) samples_needed = std::max(samples, samples * estimate / goal.relmse_estimate);
+      if (goal.relmse_scaled > 0) samples_needed = std::max(samples, samples * estimate / goal.relmse_scaled);
       const double left = std::min(seconds_left, (samples_needed - samples) * sample_seconds);
       const double total = result.seconds + left;
       report({result.reached ? 1.0 : result.seconds / total, film.samples(), result.seconds, std::max(left, 0.0),
@@ -68,7 +69,7 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
     // The next pass: no more than four times as long as this one, on whose speed it relies.
     count = std::min({samples_in(pass_seconds, sample_seconds), 4 * count, goal.spp - film.samples(),
                       samples_in(seconds_left, sample_seconds)});
-    if (goal.relmse_estimate > 0) count = std::min(count, check - film.samples());
+    if (goal.relmse_scaled > 0) count = std::min(count, check - film.samples());
   } while (!result.reached && !stop);
   return result;
 }

@@ -12,7 +12,7 @@ namespace glimt {
 struct Goal {
   int spp = 0;                                               ///< samples per pixel
   double seconds = std::numeric_limits<double>::infinity();  ///< of rendering
-  double relmse_estimate = 0;                                ///< at most this; looked at from 8 samples on
+  double relmse_scaled = 0;                                  ///< at most this; looked at from 8 samples on
 };
 
 struct Progress {
@@ -21,7 +21,7 @@ struct Progress {
   double seconds = 0;   ///< of rendering so far
   double seconds_left = 0;
   double paths_per_second = 0;
-  double relmse_estimate = 0;  ///< when last looked at; infinite before
+  double relmse_scaled = 0;  ///< when last looked at; infinite before
 };
 
 struct Rendering {

@@ -131,7 +131,7 @@ double relmse_estimate(const Film& film) { return estimate_error(film).relmse; }
 ErrorEstimate estimate_error(const Film& film) {
   if (film.samples() < 2) return {};
   const double n0 = film.half_samples(0), n1 = film.half_samples(1), n = n0 + n1;
-  const double scaled_floor = scaled_dark(mean_of(film));
+  const double picture_mean = mean_of(film), scaled_floor = scaled_dark(picture_mean);
   const int block_rows = (film.height() + block_size - 1) / block_size;
   struct RowSums {
     double relmse = 0, scaled = 0, scaled_squares = 0;
@@ -167,6 +167,11 @@ ErrorEstimate estimate_error(const Film& film) {
   }
   const double per_value = (n0 * n1 / (n * n)) / (3.0 * film.width() * film.height());
   ErrorEstimate result{.relmse = all.relmse * per_value, .relmse_scaled = all.scaled * per_value};
+  if (!(picture_mean > 0)) {
+    // A black picture tells nothing: its light may not have been found yet.
+    result.relmse_scaled = std::numeric_limits<double>::infinity();
+    return result;
+  }
   result.low = result.high = result.relmse_scaled;
   if (all.scaled > 0) {
     // The degrees of freedom of S, the sum of squares e of one degree each: 3 S^2 / sum e^2 - 2 (core/README.md).
@@ -178,7 +183,7 @@ ErrorEstimate estimate_error(const Film& film) {
 }
 
 std::string trust_text(const ErrorEstimate& estimate) {
-  if (!std::isfinite(estimate.relmse_scaled)) return "error unknown from one sample";
+  if (!std::isfinite(estimate.relmse_scaled)) return "error unknown";
   std::array<char, 128> text{};
   if (std::isfinite(estimate.high))
     std::snprintf(text.data(), text.size(), "error %.3g (%.2g to %.2g in 95 of 100)", estimate.relmse_scaled,

@@ -34,7 +34,8 @@ double mean(const Image& image);
 /// which differs from it for odd counts). Infinite below two samples.
 double relmse_estimate(const Film& film);
 
-/// The error of a film's mean, estimated without a reference; infinite below two samples.
+/// The error of a film's mean, estimated without a reference; infinite below two samples. A black picture has no
+/// relmse_scaled either: it is infinite.
 struct ErrorEstimate {
   double relmse = std::numeric_limits<double>::infinity();         ///< relmse_estimate
   double relmse_scaled = std::numeric_limits<double>::infinity();  ///< the same with scaled_dark(mean of the film)

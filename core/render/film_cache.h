@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <list>
 #include <optional>
 
 #include "film/film.h"
+#include "film/statistics.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -14,10 +14,10 @@ namespace glimt {
 /// A film and what it takes to go on with it.
 struct Accumulation {
   Film film;
-  double seconds = 0;                                                ///< of rendering so far
-  double relmse_estimate = std::numeric_limits<double>::infinity();  ///< of the film's samples
-  int pass = 0;           ///< samples per pixel of a pass that was cancelled and is in the film in part; 0: none
-  PassProgress progress;  ///< of that pass
+  double seconds = 0;        ///< of rendering so far
+  ErrorEstimate estimate{};  ///< of the film's samples
+  int pass = 0;              ///< samples per pixel of a pass that was cancelled and is in the film in part; 0: none
+  PassProgress progress;     ///< of that pass
 };
 
 /// Recent films by scene and settings (without the target), the longest unused of them forgotten where all together

@@ -38,7 +38,7 @@ int target_samples(const Settings& settings, const Accumulation& accumulation) {
   if (settings.target_error == 0) return settings.spp;
   const int samples = accumulation.film.samples();
   if (samples < first_estimate) return first_estimate;
-  const double share = accumulation.relmse_estimate / settings.target_error;
+  const double share = accumulation.estimate.relmse_scaled / settings.target_error;
   return share <= 1 ? samples : static_cast<int>(std::clamp(std::ceil(samples * share), samples + 1.0, 1.0 * max_spp));
 }
 
@@ -188,7 +188,7 @@ void Session::work() {
         }
       }
       now = kept ? std::move(*kept) : Accumulation{.film = make_film(*job->compiled), .progress = {}};
-      if (now.pass == 0) now.relmse_estimate = relmse_estimate(now.film);  // the one kept may be of fewer samples
+      if (now.pass == 0) now.estimate = estimate_error(now.film);  // the one kept may be of fewer samples
       more = now.film.samples() == 0 || now.pass > 0;
     }
     if (more) render_some(*job, now);
@@ -223,7 +223,7 @@ void Session::render_some(const Job& job, Accumulation& now) {
   now.seconds += seconds_since(start);
   if (!done) return;
   now.pass = 0;
-  if (!unwanted(job)) now.relmse_estimate = relmse_estimate(now.film);
+  if (!unwanted(job)) now.estimate = estimate_error(now.film);
 }
 
 void Session::show(const Job& job, const Accumulation& now, bool with_error) {
@@ -236,7 +236,7 @@ void Session::show(const Job& job, const Accumulation& now, bool with_error) {
   frame->samples = film.samples();
   frame->seconds = now.seconds;
   frame->paths_per_second = static_cast<double>(film.samples()) * film.width() * film.height() / now.seconds;
-  frame->relmse_estimate = now.relmse_estimate;
+  frame->estimate = now.estimate;
   frame->finished = finished(job.scene.render, now);
   show(std::move(frame));
 }
@@ -248,7 +248,6 @@ void Session::show_preview(const Job& job) {
   frame->version = job.version;
   frame->size = job.scene.image;
   frame->mean = film.mean();
-  frame->relmse_estimate = std::numeric_limits<double>::infinity();
   show(std::move(frame));
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "film/film.h"
+#include "film/statistics.h"
 #include "render/film_cache.h"
 #include "render/render.h"
 #include "scene/scene.h"
@@ -22,7 +23,7 @@ struct Frame {
   int samples = 0;              ///< per pixel; 0 for the coarse preview that answers an edit of a large image
   double seconds = 0;           ///< of rendering since the last restart, pauses left out
   double paths_per_second = 0;  ///< over the same time
-  double relmse_estimate = 0;   ///< infinite below two samples
+  ErrorEstimate estimate;       ///< of `mean`; infinite below two samples
   bool finished = false;        ///< the target is reached
 };
 

@@ -53,7 +53,7 @@ enum class PathSharing { off, on };
 /// window in fields.cpp.
 struct Settings {
   int spp = 64;                  ///< samples per pixel to stop at
-  double target_error = 0;       ///< relmse_estimate to stop at in place of `spp`; 0: stop at `spp`
+  double target_error = 0;       ///< relmse_scaled to stop at in place of `spp`; 0: stop at `spp`
   int shadow_rays = 1;           ///< M, shadow rays per diffuse hit
   int seed = 1;                  ///< of the random numbers
   Method method = Method::path;  ///< what the settings below began from

@@ -10,12 +10,13 @@ namespace {
 constexpr double least_target = 1e-7, most_target = 0.1;
 
 std::string error_text(const Frame& frame) {
-  return std::isfinite(frame.relmse_estimate) ? "relMSE " + short_number(frame.relmse_estimate) : "error unknown";
+  return std::isfinite(frame.estimate.relmse_scaled) ? "relMSE " + short_number(frame.estimate.relmse_scaled)
+                                                     : "error unknown";
 }
 
 std::string what_it_is(const ChartState& chart) {
   if (chart.making)
-    return "being made: " + short_number(chart.making->relmse_estimate) + " of " + short_number(chart.target);
+    return "being made: " + short_number(chart.making->estimate.relmse_scaled) + " of " + short_number(chart.target);
   if (!chart.reference) return "none: errors are estimates";
   if (!chart.reference_fits) return chart.reference->name + ": of another scene or size";
   return chart.reference->name + ", " + error_text(*chart.reference->frame);

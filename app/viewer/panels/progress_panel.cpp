@@ -39,7 +39,7 @@ constexpr double least_error = 1e-6, most_error = 1;
 double share_done(const Settings& settings, const Frame& frame) {
   if (frame.finished) return 1;
   if (settings.target_error == 0) return std::min(1.0, static_cast<double>(frame.samples) / settings.spp);
-  return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.relmse_estimate) : 0;
+  return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.estimate.relmse_scaled) : 0;
 }
 
 /// The error of the picture so far against time, both logarithmic, in what is left of the row. An error that falls as
@@ -147,11 +147,12 @@ void draw_progress_panel(const ViewerState& state, Edits& edits) {
   text_row("Samples / pixel", std::to_string(frame.samples) + of,
            "Paths traced so far through each pixel. Four times as many halve the noise.");
   const std::string aim = by_error ? number(" of %.2g relMSE", settings.target_error) : " relMSE";
-  text_row(
-      "Estimated error",
-      std::isfinite(frame.relmse_estimate) && frame.samples > 1 ? number("%.3g", frame.relmse_estimate) + aim : dash,
-      "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
-      "as 1 / samples.");
+  text_row("Estimated error",
+           std::isfinite(frame.estimate.relmse_scaled) && frame.samples > 1
+               ? number("%.3g", frame.estimate.relmse_scaled) + aim
+               : dash,
+           "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
+           "as 1 / samples.");
   draw_trend(state, frame, ends, share);
   text_row("Speed", number("%.1f Mpaths/s", frame.paths_per_second / 1e6),
            "Millions of paths from the camera in a second.");

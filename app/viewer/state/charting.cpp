@@ -15,7 +15,7 @@ namespace {
 /// Far from what people type, so that a reference shares no random numbers with what is measured against it.
 constexpr int reference_seed = 1'618'033'988;
 
-RunPoint point_of(const Frame& frame) { return {frame.samples, frame.seconds, frame.relmse_estimate, {}}; }
+RunPoint point_of(const Frame& frame) { return {frame.samples, frame.seconds, frame.estimate.relmse, {}}; }
 
 /// The scene as it is rendered best, with all of its light.
 Scene reference_scene(Scene scene, double target) {
@@ -119,7 +119,7 @@ void Charting::load(const std::filesystem::path& file) {
       auto frame = std::make_shared<Frame>();
       frame->mean = read_reference(file, *scene);
       frame->size = scene->image;
-      frame->relmse_estimate = std::numeric_limits<double>::quiet_NaN();
+      frame->estimate.relmse = frame->estimate.relmse_scaled = std::numeric_limits<double>::quiet_NaN();
       return {std::make_shared<const Reference>(Reference{file.filename().string(), frame, scene}), {}};
     } catch (const std::exception& problem) {
       return {nullptr, problem.what()};

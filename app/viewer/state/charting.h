@@ -44,7 +44,7 @@ struct ChartState {
   std::shared_ptr<const Reference> reference;  ///< null where there is none
   bool reference_fits = false;                 ///< it is of the scene that is shown
   std::shared_ptr<const Frame> making;         ///< how far the next reference has come; null where none is made
-  double target = 1e-4;                        ///< relmse_estimate that it is made to
+  double target = 1e-4;                        ///< relmse_scaled that it is made to
   std::optional<double> measuring;             ///< share done of the next finding
   std::optional<Finding<ShadowRayAdvice>> advice;
   std::optional<Finding<Families>> families;

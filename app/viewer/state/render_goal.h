@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 3> stop_at_names{"never", "samples
 struct RenderGoal {
   StopAt stop_at = StopAt::never;
   int samples = 64;      ///< per pixel
-  double error = 0.001;  ///< relmse_estimate
+  double error = 0.001;  ///< relmse_scaled
 
   bool operator==(const RenderGoal&) const = default;
 };

@@ -87,7 +87,7 @@ struct Edits {
   std::optional<ChartView> chart_view;
   std::optional<std::uint64_t> show_curve, hide_curve, remove_curve, base_curve;
   std::optional<std::filesystem::path> load_reference;
-  std::optional<double> reference_target;  ///< relmse_estimate that the next is made to
+  std::optional<double> reference_target;  ///< relmse_scaled that the next is made to
   bool clear_chart = false;
   bool make_reference = false, use_reference_now = false, stop_reference = false, drop_reference = false;
   bool advise = false, measure_families = false, stop_measuring = false;

@@ -54,7 +54,7 @@ TEST_F(ChartPanel, ACurveForEverySettingTried) {
       EXPECT_GE(curve.points[i].seconds, curve.points[i - 1].seconds);
     }
   }
-  EXPECT_EQ(curves[3].points.back().estimate, window.state().frame->relmse_estimate);
+  EXPECT_EQ(curves[3].points.back().estimate, window.state().frame->estimate.relmse);
 
   Edits edits;
   edits.undo = true;
@@ -185,7 +185,7 @@ TEST_F(ChartPanel, MakesAReferenceWhileThePictureWaits) {
   ASSERT_TRUE(window.draw_until([&] { return chart(window).reference_fits; }));
   EXPECT_FALSE(window.state().paused);
   const Reference& made = *chart(window).reference;
-  EXPECT_LE(made.frame->relmse_estimate, 0.02);
+  EXPECT_LE(made.frame->estimate.relmse_scaled, 0.02);
   EXPECT_NE(made.frame->mean.rgb, window.state().frame->mean.rgb) << "its random numbers are its own";
   ASSERT_TRUE(window.draw_until([&] {
     const Curve* curve = chart(window).curves.current();

@@ -70,7 +70,7 @@ TEST_F(Render, WritesEveryFormat) {
     const Result result = render(out, {"--spp", "4"});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_TRUE(has(result.out, std::string(out) + ": 4 spp in ")) << result.out;
-    EXPECT_TRUE(has(result.out, "Mpaths/s")) << result.out;
+    EXPECT_TRUE(has(result.out, "Mpaths/s, error ")) << result.out;
     EXPECT_EQ(result.err, "");
   }
   EXPECT_EQ(files(), 3u);
@@ -142,6 +142,7 @@ TEST_F(Render, StatsSayWhatItWasAndWhatItCost) {
 TEST_F(Render, StatsHaveNullForWhatIsUnknown) {
   const json s = stats({"--spp", "1", "--set", R"(name="a \"b\"\\ \u00e4")"});
   EXPECT_TRUE(s.at("relmse_estimate").is_null());
+  EXPECT_TRUE(s.at("relmse_scaled").is_null());
   EXPECT_EQ(s.at("scene"), "a \"b\"\\ \u00e4");
   EXPECT_GE(s.at("threads"), 1);
   EXPECT_GE(s.at("lanes"), 4);
@@ -202,11 +203,65 @@ TEST_F(Render, SecondsEndIt) {
 
 TEST_F(Render, TargetErrorIsReachedWithTheSameSamplesByAnyThreads) {
   const json one = stats({"--target-error", "0.05", "--threads", "1"});
-  EXPECT_LE(one.at("relmse_estimate"), 0.05);
+  EXPECT_LE(one.at("relmse_scaled"), 0.05);
   EXPECT_GE(one.at("spp"), 8);
   const json two = stats({"--target-error", "0.05", "--threads", "2"});
   EXPECT_EQ(one.at("spp"), two.at("spp"));
   EXPECT_EQ(stats({"--target-error", "1e6"}).at("spp"), 8) << "never fewer";
+}
+
+// Powers of two times every radiance are exact, so no sample may differ but by them.
+TEST_F(Render, TargetErrorHasNoScale) {
+  const json one = stats({"--target-error", "0.003"});
+  for (const char* radiance : {"10", "0.01953125", "1310720"}) {
+    const std::string lamp = std::string("material.lamp.radiance=[") + radiance + "," + radiance + "," + radiance + "]";
+    const json other = stats({"--target-error", "0.003", "--set", lamp});
+    EXPECT_EQ(other.at("spp"), one.at("spp")) << radiance;
+    EXPECT_EQ(other.at("relmse_scaled"), one.at("relmse_scaled")) << radiance;
+  }
+  EXPECT_GT(one.at("spp"), 8) << "a dim lamp must not end it at once";
+}
+
+// No sample of `naive` finds this lamp within the first look: a black picture is no picture of error 0.
+TEST_F(Render, TargetErrorIsNotReachedByBlack) {
+  write("speck.toml", R"(
+[camera]
+eye = [0, 0, 4]
+look_at = [0, 0, 0]
+up = [0, 1, 0]
+fov_y = 40
+[material.white]
+type = "lambertian"
+reflectance = [0.7, 0.7, 0.7]
+[material.lamp]
+type = "light"
+radiance = [5, 5, 5]
+[[sphere]]
+center = [0, -1, 0]
+radius = 1
+material = "white"
+[[sphere]]
+center = [0, 40, 0]
+radius = 1
+material = "lamp"
+)");
+  const Arguments options{"render",   "speck.toml", "-o",     "speck.pfm", "--size",  "8x8",
+                          "--method", "naive",      "--seed", "1",         "--stats", "speck.json"};
+  Arguments look = options, target = options;
+  look.insert(look.end(), {"--spp", "8"});
+  target.insert(target.end(), {"--target-error", "0.5"});
+  ASSERT_EQ(glimt(look).status, 0);
+  const json black = json::parse(read("speck.json"));
+  ASSERT_EQ(black.at("mean"), 0);
+  EXPECT_TRUE(black.at("relmse_scaled").is_null());
+  ASSERT_EQ(glimt(target).status, 0);
+  const json found = json::parse(read("speck.json"));
+  EXPECT_GT(found.at("mean"), 0);
+  EXPECT_LE(found.at("relmse_scaled"), 0.5);
+}
+
+TEST_F(Render, WithoutLightTheTargetIsReachedAtOnce) {
+  EXPECT_EQ(stats({"--target-error", "0.05", "--set", "material.lamp.radiance=[0,0,0]"}).at("spp"), 8);
 }
 
 TEST_F(Render, PipedOutputHoldsNoProgress) {

@@ -182,7 +182,7 @@ TEST_F(ViewerEdit, TargetCanBeAnError) {
   EXPECT_NEAR(std::log10(window.state().scene.render.target_error), -1.2, 0.1);
   ASSERT_TRUE(window.draw_until_finished());
   EXPECT_EQ(window.state().frame->version, version) << "never restarts";
-  EXPECT_LE(window.state().frame->relmse_estimate, window.state().scene.render.target_error);
+  EXPECT_LE(window.state().frame->estimate.relmse_scaled, window.state().scene.render.target_error);
 }
 
 TEST_F(ViewerEdit, SnapshotReopensAsTheSameImage) {

@@ -162,6 +162,16 @@ TEST(RelmseScaled, IsTheSameForEveryScale) {
   EXPECT_NE(of_scale(0.5f).first.relmse, one.relmse) << "relmse has a scale";
 }
 
+TEST(RelmseScaled, BlackPictureHasNone) {
+  Film film(9, 10, 1);
+  film.finish_pass(1 << 20);
+  const ErrorEstimate black = estimate_error(film);
+  EXPECT_EQ(black.relmse_scaled, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(black.low, 0);
+  EXPECT_EQ(black.high, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(trust_text(black), "error unknown");
+}
+
 // Halves and truth are independent, each the mean of 4 normal numbers: the ratio of the error made and the error
 // estimated is that of two chi-square variables. More than 35 of 400 pictures outside an interval of 95 % come by
 // chance once in 1000 tests.

@@ -58,7 +58,7 @@ TEST(Session, EndsWithThePictureOfTheCommandLine) {
   EXPECT_EQ(first_difference(frame->mean.rgb, render(compile(scene), 37).mean().rgb), -1);
   EXPECT_GT(frame->seconds, 0);
   EXPECT_GT(frame->paths_per_second, 0);
-  EXPECT_TRUE(std::isfinite(frame->relmse_estimate));
+  EXPECT_TRUE(std::isfinite(frame->estimate.relmse_scaled));
 }
 
 TEST(Session, WakesTheWindowForEachFrame) {
@@ -257,7 +257,7 @@ TEST(Session, FilmsThatComeBackKnowTheirError) {
     const FramePtr back =
         wait_for(session, [=](const Frame& f) { return f.version == version && f.samples >= samples; });
     ASSERT_TRUE(back);
-    EXPECT_EQ(back->relmse_estimate, relmse_estimate(render(compile(scene), back->samples)));
+    EXPECT_EQ(back->estimate.relmse_scaled, estimate_error(render(compile(scene), back->samples)).relmse_scaled);
     samples = back->samples;
     std::this_thread::sleep_for(std::chrono::milliseconds(5 + 3 * i));
     const auto between = session.post(other);
@@ -294,11 +294,12 @@ TEST(Session, StopsAtAnEstimatedError) {
   const FramePtr end = wait_for(session, [](const Frame& f) { return f.finished; });
   ASSERT_TRUE(end);
   EXPECT_GE(end->samples, 8) << "fewer say too little of the error";
-  EXPECT_LE(end->relmse_estimate, 0.05);
-  EXPECT_EQ(relmse_estimate(render(compile(scene), end->samples)), end->relmse_estimate);
+  EXPECT_LE(end->estimate.relmse_scaled, 0.05);
+  EXPECT_EQ(estimate_error(render(compile(scene), end->samples)).relmse_scaled, end->estimate.relmse_scaled);
   scene.render.target_error = 0.005;
   EXPECT_EQ(session.post(scene), version) << "goes on with the samples there are";
-  const FramePtr more = wait_for(session, [](const Frame& f) { return f.finished && f.relmse_estimate <= 0.005; });
+  const FramePtr more =
+      wait_for(session, [](const Frame& f) { return f.finished && f.estimate.relmse_scaled <= 0.005; });
   ASSERT_TRUE(more);
   EXPECT_GT(more->samples, end->samples);
 }
