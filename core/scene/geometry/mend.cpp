@@ -131,7 +131,7 @@ void drop_flat(Mesh& mesh) {
 std::size_t drop_repeated(Mesh& mesh) {
   std::set<Corners> seen;
   return std::erase_if(mesh.triangles, [&](Corners t) {
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     return !seen.insert(t).second;
   });
 }
