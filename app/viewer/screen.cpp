@@ -43,7 +43,7 @@ std::string bytes_of(const ImDrawData& data) {
 
 ImageSize room_of(const Layout& layout, float ratio) {
   const auto side = [ratio](float length) {
-    return std::clamp(static_cast<int>(std::lround(length * ratio)), 1, static_cast<int>(image_fields()[0].max));
+    return std::clamp(static_cast<int>(length * ratio), 1, static_cast<int>(image_fields()[0].max));
   };
   return {side(layout.image.width), side(layout.image.height)};
 }
@@ -77,10 +77,8 @@ void Screen::set_scale(float scale, float ratio) {
   ImGui_ImplOpenGL2_CreateFontsTexture();
 }
 
-ImageSize room_in_window(int width, int height, bool chart) {
-  Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height), 1);
-  const ImageSize shape = room_of(layout, 1);
-  if (chart) layout = with_chart(layout, shape.width, shape.height, 1);
+ImageSize room_in_window(int width, int height) {
+  const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height), 1);
   return room_of(layout, 1);
 }
 
@@ -96,12 +94,10 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   const ImageSize& size = state.scene.image;
   Layout layout = make_layout(io.DisplaySize.x, io.DisplaySize.y, scale);
   const Rect sheets = layout.image;  // which may lie over the chart
-  if (state.chart.view.shown) {
-    const ImageSize shape = state.fits_window ? room_of(layout, ratio) : size;
-    layout = with_chart(layout, shape.width, shape.height, scale);
-  }
-  chart_ = layout.chart;
+  // The chart makes the picture smaller on the screen alone, so that it goes on with the samples there are.
   edits.room = room_of(layout, ratio);
+  if (state.chart.view.shown) layout = with_chart(layout, size.width, size.height, scale);
+  chart_ = layout.chart;
   const Placement picture = place_image(size.width, size.height, layout.image, ratio, tool_.zoom());
   image_->draw(state.frame, state.display, layout.image, picture);
   compare_->draw(state, layout.image, picture);

@@ -11,8 +11,8 @@
 
 namespace glimt {
 
-/// The room for the picture in a window of that size on an ordinary screen, pixels.
-ImageSize room_in_window(int width, int height, bool chart);
+/// The room for the picture in a window of that size on an ordinary screen, without the chart; pixels.
+ImageSize room_in_window(int width, int height);
 
 /// Draws the window's contents with ImGui and OpenGL 2 into the current context, whoever made it. Owns the ImGui
 /// context; sizes, mouse and keys are set in ImGui::GetIO() by the platform before each

@@ -151,7 +151,7 @@ void run(const std::filesystem::path& scene_file) {
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
   std::optional<ImageSize> room;
-  if (settings.fits_window) room = room_in_window(settings.width, settings.height, settings.chart.shown);
+  if (settings.fits_window) room = room_in_window(settings.width, settings.height);
   Controller controller(
       std::move(scene), scene_file, [] { glfwPostEmptyEvent(); }, {}, {}, room);
   controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note, settings.drag_view);

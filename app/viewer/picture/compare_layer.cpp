@@ -55,7 +55,12 @@ std::shared_ptr<const Frame> CompareLayer::compared(const std::shared_ptr<const 
 
 void CompareLayer::draw(const ViewerState& state, const Rect& area, const Placement& picture) {
   const CompareView view = state.compare.view;
-  if (view == CompareView::off || !state.frame || !obstacle_to_compare(state).empty()) return;
+  if (view == CompareView::off || !state.frame) return;
+  if (const std::string obstacle = obstacle_to_compare(state); !obstacle.empty()) {
+    const Rect seen = visible(picture.rect, area);
+    draw_label(obstacle, seen.x + style::scaled(8), seen.y + style::scaled(8), false);
+    return;
+  }
   const Held b = picture_b(state);
   const Rect seen = visible(picture.rect, area);
   Display display = state.display;

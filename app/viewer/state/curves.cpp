@@ -69,6 +69,8 @@ std::optional<double> place_of(const Curve& curve, ErrorKind kind, Across axis, 
 }
 
 std::optional<double> efficiency_ratio(const Curve& curve, const Curve& base, std::optional<double> seconds) {
+  // Fewer pixels take less time.
+  if (curve.scene && base.scene && curve.scene->image != base.scene->image) return std::nullopt;
   const ErrorKind kind = std::min(error_kind(curve), error_kind(base));
   if (seconds) {
     const auto error = error_at(curve, kind, Across::seconds, *seconds);

@@ -51,6 +51,7 @@ std::optional<double> place_of(const Curve& curve, ErrorKind kind, Across axis, 
 
 /// Efficiency over that of the base: inverse ratio of error times seconds. At an equal time, where one is given and
 /// both have been there, else as far as each has come. Compared by the reference where both can be, else by estimate.
+/// Nothing for pictures of different sizes.
 std::optional<double> efficiency_ratio(const Curve& curve, const Curve& base, std::optional<double> seconds);
 
 /// A curve for every scene and setting tried, kept across edits.

@@ -31,7 +31,7 @@ struct ViewerState {
   std::uint64_t version = 0;                      ///< of the scene; frames of this or a later one show it
   std::shared_ptr<const CompiledScene> compiled;  ///< of the scene
   bool fits_window = false;                       ///< the picture has the size of the room for it in the window
-  ImageSize room{};                               ///< for the picture, framebuffer pixels
+  ImageSize room{};                               ///< for the picture without the chart, framebuffer pixels
   Camera opened_camera;                           ///< as it was in the file, to come back to
   ImageSize opened_size{};                        ///< the same for the picture's size
   std::filesystem::path file;                     ///< that the scene is from; empty for a picture's scene
