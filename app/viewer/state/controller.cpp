@@ -99,7 +99,6 @@ void Controller::apply(const Edits& edits) {
     next_room_ = *edits.room;
     room_changed_ = std::chrono::steady_clock::now();
   }
-  const bool fitted = state_.fits_window;
   if (edits.fits_window) {
     state_.fits_window = *edits.fits_window;
     state_.room = next_room_;
@@ -115,7 +114,7 @@ void Controller::apply(const Edits& edits) {
       state_.message = {error.what(), true};
     }
   }
-  if (state_.fits_window != fitted) show(now());
+  if (edits.fits_window) show(now());
   if (edits.undo) show(history_.undo(now()));
   if (edits.redo) show(history_.redo(now()));
   if (edits.open) open(*edits.open);
@@ -184,14 +183,11 @@ void Controller::show(const std::optional<Document>& document) {
 void Controller::show(const Document& document, std::uint64_t gesture) {
   const auto size = state_.fits_window ? std::optional(state_.room) : std::nullopt;
   auto scene = std::make_shared<const Scene>(as_shown(*document.scene, document.goal, size));
-  if (posted_scene_ && *scene == *posted_scene_ && document.goal == state_.goal) {
-    state_.filed = document.scene;
-    return;
-  }
+  state_.filed = document.scene;
+  if (posted_scene_ && *scene == *posted_scene_ && document.goal == state_.goal) return;
   state_.version = session_.post(*scene);
   state_.compiled = session_.compiled();
   state_.scene = *scene;
-  state_.filed = document.scene;
   state_.goal = document.goal;
   state_.enclosed = is_enclosed(*scene, scene->camera.eye);
   if (state_.selected && !contains(state_.scene, *state_.selected)) state_.selected.reset();
@@ -217,6 +213,7 @@ void Controller::open(const fs::path& file) {
     else
       open_scene(file);
     state_.opened_camera = state_.scene.camera;
+    state_.opened_size = state_.filed->image;
     session_.set_paused(false);
   } catch (const std::exception& error) {
     state_.message = {error.what(), true};
