@@ -26,6 +26,7 @@ int run_cli(int argc, char** argv) {
   Run run;
   add_window_command(app, run);
   add_render_command(app, run);
+  add_merge_command(app, run);
   add_compare_command(app, run);
   add_chart_command(app, run);
   add_report_command(app, run);

@@ -18,6 +18,7 @@ struct BadInput : std::runtime_error {
 // Each declares its command and sets `run` where the command is given.
 void add_window_command(CLI::App& app, Run& run);
 void add_render_command(CLI::App& app, Run& run);
+void add_merge_command(CLI::App& app, Run& run);
 void add_compare_command(CLI::App& app, Run& run);
 void add_chart_command(CLI::App& app, Run& run);
 void add_report_command(CLI::App& app, Run& run);

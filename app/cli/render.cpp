@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
 #include "cli/render_loop.h"
@@ -16,21 +17,27 @@
 namespace glimt {
 namespace {
 
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<bool> stopped{false};
+std::atomic<int> stop_signal{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-/// The first Ctrl-C asks for an end after the running pass; a second one ends the program.
-void stop_on_interrupt() {
+/// The first SIGINT (Ctrl-C) or SIGTERM asks for an end after the running pass. The second of its kind ends the
+/// program.
+void stop_on_signals() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
+  action.sa_handler = [](int number) {
+    stop_signal = number;
+    stopped = true;
+  };
+  action.sa_flags = static_cast<int>(SA_RESETHAND | static_cast<unsigned>(SA_RESTART));
+  for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
 }
 
 Goal goal_of(const RenderOptions& options, const Settings& settings) {
-  if (options.seconds) return {.spp = max_spp, .seconds = *options.seconds};
-  if (settings.target_error > 0) return {.spp = max_spp, .relmse_scaled = settings.target_error};
-  return {.spp = settings.spp};
+  constexpr SampleRange all{0, max_spp};
+  if (options.seconds) return {.samples = all, .seconds = *options.seconds};
+  if (settings.target_error > 0) return {.samples = all, .relmse_scaled = settings.target_error};
+  return {.samples = options.part.value_or(SampleRange{0, settings.spp})};
 }
 
 /// On standard output, or beside it where the picture goes there.
@@ -49,38 +56,54 @@ void warn_of_counters(const Film& film) {
                static_cast<unsigned long long>(film.invalid()), static_cast<unsigned long long>(film.saturated()));
 }
 
+/// Writes the picture and --stats. Returns false, and says why, where they cannot be written.
+bool write_results(const RenderOptions& options, const Checkpoint& result) {
+  const auto& [scene, film, seconds, next_check] = result;
+  try {
+    const Display display{.dither = options.no_dither ? Dither::off : Dither::on};
+    write_image(options.out, film, display, render_metadata(scene, film, seconds));
+    if (!options.stats.empty()) replace_file(options.stats, stats_json(scene, film, options.execution, seconds));
+    return true;
+  } catch (const ImageFileError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return false;
+  }
+}
+
 int run_render(const RenderOptions& options) {
-  Scene scene = read_scene(options.scene, options.overrides);
+  const Scene scene = read_scene(options.scene, options.overrides);
   const CompiledScene compiled = compile(scene);
   for (const auto& warning : compiled.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const Goal goal = goal_of(options, scene.render);
-  Film film = make_film(compiled);
+  Checkpoint state = first_film(options, scene, compiled, goal);
+  Film& film = state.film;
 
-  stop_on_interrupt();
+  stop_on_signals();
+  CheckpointWriter writer(options);
   const bool show = !options.quiet && isatty(STDERR_FILENO);
-  Rendering rendering;
+  Rendering rendering{.seconds = state.seconds, .next_check = state.next_check};
   {
     ProgressBar bar;
-    rendering = render_to(
-        goal, compiled, film, options.execution, interrupted,
-        show ? [&bar](const Progress& progress) { bar.show(progress); } : std::function<void(const Progress&)>());
+    AfterPass after{.report = {}, .save = [&](const Rendering& now) { writer.write_when_due(state, now); }};
+    if (show) after.report = [&bar](const Progress& progress) { bar.show(progress); };
+    rendering = render_to(goal, compiled, film, options.execution, stopped, after, rendering);
   }
+  state.seconds = rendering.seconds;
 
-  const Display display{.dither = options.no_dither ? Dither::off : Dither::on};
-  write_image(options.out, film, display, render_metadata(scene, film.samples(), rendering.seconds));
-  if (!options.stats.empty())
-    replace_file(options.stats, stats_json(scene, film, options.execution, rendering.seconds));
+  // Each of the two is tried where the other fails.
+  const bool kept = writer.write(state, rendering), written = write_results(options, state);
+  if (!kept || !written) return 1;
   const ErrorEstimate estimate = estimate_error(film);
   if (!options.quiet) print_summary(options, film, rendering.seconds, estimate);
   warn_of_counters(film);
   if (!rendering.reached) {
     std::fprintf(stderr, "interrupted: %s holds the %d samples per pixel there are\n", options.out.c_str(),
                  film.samples());
-    return 1;
+    return 128 + stop_signal;
   }
-  if (goal.relmse_scaled > 0 && film.samples() >= goal.spp && estimate.relmse_scaled > goal.relmse_scaled) {
+  if (goal.relmse_scaled > 0 && film.samples() >= goal.samples.count && estimate.relmse_scaled > goal.relmse_scaled) {
     std::fprintf(stderr, "the error asked for is not reached with %d samples per pixel, the most there can be\n",
-                 goal.spp);
+                 goal.samples.count);
     return 1;
   }
   return 0;

@@ -33,45 +33,51 @@ int samples_in(double seconds, double sample_seconds) {
 }  // namespace
 
 Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, const Execution& execution,
-                    const std::atomic<bool>& stop, const std::function<void(const Progress&)>& report) {
-  Rendering result;
+                    const std::atomic<bool>& stop, const AfterPass& after, const Rendering& begun) {
+  Rendering result = begun;
+  result.next_check = std::max(begun.next_check, first_check);
+  film.go_on_from(goal.samples.first);
   const double pixels = static_cast<double>(film.width()) * film.height();
   double estimate = std::numeric_limits<double>::infinity(), estimate_seconds = 0, estimated_at = 0;
   const bool unlit = scene.max_radiance == 0;  // black is right at once
-  int check = first_check, count = 1;
-  do {
-    const double pass = seconds_of([&] { render_pass(scene, film, count, execution); });
-    result.seconds += pass;
-    const double sample_seconds = pass / count;
+  int count = 0;                               // of the last pass
+  double sample_seconds = 0;
+  while (true) {
     const double seconds_left = goal.seconds - result.seconds;
-
-    const bool checked = goal.relmse_scaled > 0 && film.samples() >= check;
-    const bool shown = report && goal.relmse_scaled == 0 && film.samples() >= 2 &&
+    const bool checked = goal.relmse_scaled > 0 && film.samples() >= result.next_check;
+    const bool shown = after.report && goal.relmse_scaled == 0 && film.samples() >= 2 &&
                        result.seconds - estimated_at >= estimate_share * estimate_seconds;
     if (checked || shown) {
       estimate_seconds = seconds_of([&] { estimate = estimate_error(film).relmse_scaled; });
       estimated_at = result.seconds;
     }
-    if (checked) check = next_check(film.samples(), estimate, goal.relmse_scaled);
-    result.reached = film.samples() >= goal.spp || seconds_left < sample_seconds / 2 ||
-                     (checked && (estimate <= goal.relmse_scaled || unlit));
+    const bool error_reached = checked && (estimate <= goal.relmse_scaled || unlit);
+    if (checked && !error_reached) result.next_check = next_check(film.samples(), estimate, goal.relmse_scaled);
+    result.reached = film.samples() >= goal.samples.count || seconds_left <= sample_seconds / 2 || error_reached;
 
-    if (report) {
+    if (after.report && count > 0) {
       const double samples = film.samples();
-      double samples_needed = goal.spp;
+      double samples_needed = goal.samples.count;
       if (goal.relmse_scaled > 0) samples_needed = std::max(samples, samples * estimate / goal.relmse_scaled);
       const double left = std::min(seconds_left, (samples_needed - samples) * sample_seconds);
       const double total = result.seconds + left;
-      report({result.reached ? 1.0 : result.seconds / total, film.samples(), result.seconds, std::max(left, 0.0),
-              pixels * samples / result.seconds, estimate});
+      after.report({result.reached ? 1.0 : result.seconds / total, film.samples(), result.seconds, std::max(left, 0.0),
+                    pixels * samples / result.seconds, estimate});
     }
+    if (result.reached || (stop && film.samples() > 0)) return result;
+    if (count > 0 && after.save) after.save(result);
 
     // The next pass: no more than four times as long as this one, on whose speed it relies.
-    count = std::min({samples_in(pass_seconds, sample_seconds), 4 * count, goal.spp - film.samples(),
-                      samples_in(seconds_left, sample_seconds)});
-    if (goal.relmse_scaled > 0) count = std::min(count, check - film.samples());
-  } while (!result.reached && !stop);
-  return result;
+    count =
+        count == 0
+            ? 1
+            : std::min({samples_in(pass_seconds, sample_seconds), 4 * count, samples_in(seconds_left, sample_seconds)});
+    count = std::min({count, goal.samples.count - film.samples(), film.missing().count});
+    if (goal.relmse_scaled > 0) count = std::min(count, result.next_check - film.samples());
+    const double pass = seconds_of([&] { render_pass(scene, film, count, execution); });
+    result.seconds += pass;
+    sample_seconds = pass / count;
+  }
 }
 
 }  // namespace glimt

@@ -79,6 +79,46 @@ void set_size(const std::string& text, std::vector<std::string>& overrides) {
   }
 }
 
+/// "64:32" as samples 64 to 95.
+SampleRange part_of(const std::string& text) {
+  SampleRange part;
+  const char* const last = text.data() + text.size();
+  const auto [colon, error] = std::from_chars(text.data(), last, part.first);
+  if (error == std::errc{} && colon != last && *colon == ':') {
+    const auto [end, count_error] = std::from_chars(colon + 1, last, part.count);
+    if (count_error == std::errc{} && end == last && part.first >= 0 && part.first < max_spp && part.count >= 1 &&
+        part.count <= max_spp - part.first)
+      return part;
+  }
+  throw CLI::ValidationError("--samples", text +
+                                              " is not FIRST:COUNT with FIRST from 0 on, COUNT from 1 on and at most " +
+                                              std::to_string(max_spp) + " for both together");
+}
+
+void add_checkpoint_options(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--samples",
+          [&options](const std::string& text) {
+            options.part = part_of(text);
+            options.overrides.emplace_back("render.target_error=0");
+          },
+          "Take only samples FIRST to FIRST + COUNT - 1 of each pixel: a part for glimt merge")
+      ->type_name("FIRST:COUNT")
+      ->excludes(command.get_option("--seconds"))
+      ->excludes(command.get_option("--target-error"));
+  CLI::Option* checkpoint = add_file_option(command, "--checkpoint", options.checkpoint,
+                                            "Keep all that is rendered in this file, for --resume and glimt merge");
+  command.add_option("--every", options.every, "Time from one checkpoint to the next; 60 if not given")
+      ->check(check_positive)
+      ->type_name("S")
+      ->needs(checkpoint);
+  command
+      .add_option("--resume", options.resume,
+                  "Go on from this checkpoint; where it is missing and named by --checkpoint too, begin anew")
+      ->type_name("FILE");
+}
+
 }  // namespace
 
 std::string check_positive(const std::string& text) {
@@ -122,10 +162,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   for (const auto& field : settings_fields()) std::visit(AddSetting{command, options.overrides, field}, field.member);
   CLI::Option* spp = command.get_option("--spp");
   spp->each([&options](const std::string&) { options.overrides.emplace_back("render.target_error=0"); });
-  CLI::Option* seconds = command.add_option("--seconds", options.seconds, "Render for this time instead of to --spp");
+  CLI::Option* seconds =
+      command.add_option("--seconds", options.seconds, "Render for this time in all instead of to --spp");
   CLI::Option* error = command.get_option("--target-error");
   seconds->check(check_positive)->type_name("S")->excludes(spp);
   error->check(check_positive)->type_name("RELMSE")->excludes(spp)->excludes(seconds);
+  add_checkpoint_options(command, options);
 
   command
       .add_option_function<std::string>(

@@ -20,6 +20,9 @@ struct SceneOptions {
 struct RenderOptions : SceneOptions {
   std::filesystem::path out, stats;
   std::optional<double> seconds;
+  std::optional<SampleRange> part;  ///< the only samples to take
+  std::filesystem::path checkpoint, resume;
+  double every = 60;  ///< seconds between checkpoints
   bool quiet = false;
   bool no_dither = false;  ///< in PNG
 };

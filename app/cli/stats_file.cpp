@@ -37,6 +37,7 @@ std::string stats_json(const Scene& scene, const Film& film, const Execution& ex
   for (const auto& field : settings_fields())
     json[std::string(field.key)] = std::visit(ValueJson{scene.render}, field.member);
   json["spp"] = film.samples();
+  json["sample_ranges"] = ranges_text(film.ranges());
   json["paths"] = paths;
   json["seconds"] = seconds;
   json["paths_per_second"] = static_cast<double>(paths) / seconds;

@@ -22,6 +22,13 @@ namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
+/// What the names of all temporary files of `target` begin with. A name may have 255 bytes.
+std::string temporary_prefix(const fs::path& target) {
+  return "." + target.filename().string().substr(0, 200) + ".glimt-";
+}
+
+constexpr std::string_view temporary_ending = ".tmp";
+
 /// A new empty file that goes away with this object unless it is renamed.
 class TemporaryFile {
  public:
@@ -29,7 +36,8 @@ class TemporaryFile {
     static std::atomic<unsigned> count{0};
     do {
       path_ = target;
-      path_.replace_filename(".glimt-" + std::to_string(getpid()) + "-" + std::to_string(count++) + ".tmp");
+      path_.replace_filename(temporary_prefix(target) + std::to_string(getpid()) + "-" + std::to_string(count++) +
+                             std::string(temporary_ending));
       stream_ = std::fopen(path_.c_str(), "wbx");
     } while (!stream_ && errno == EEXIST);
     if (!stream_) fail(target_, "cannot write in its folder: " + reason(errno));
@@ -46,6 +54,7 @@ class TemporaryFile {
       fail(target_, "cannot be written: " + reason(errno));
   }
   void rename_to_target() {
+    if (std::fflush(stream_) != 0 || fsync(fileno(stream_)) != 0) fail(target_, "cannot be written: " + reason(errno));
     if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(target_, "cannot be written: " + reason(errno));
     if (std::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, "cannot be replaced: " + reason(errno));
     renamed_ = true;
@@ -95,16 +104,28 @@ void check_replaceable(const fs::path& file) {
   TemporaryFile trial(target);
 }
 
-void replace_file(const fs::path& file, std::string_view bytes) {
+void replace_file(const fs::path& file, std::span<const std::string_view> pieces) {
   if (file == "-") {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
-      fail("standard output", "cannot be written: " + reason(errno));
+    for (const std::string_view bytes : pieces)
+      if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+        fail("standard output", "cannot be written: " + reason(errno));
     return;
   }
   check_replaceable(file);
   TemporaryFile temporary(resolved(file));
-  temporary.write(bytes);
+  for (const std::string_view bytes : pieces) temporary.write(bytes);
   temporary.rename_to_target();
+}
+
+void replace_file(const fs::path& file, std::string_view bytes) { replace_file(file, std::span(&bytes, 1)); }
+
+void remove_unfinished(const fs::path& file) {
+  const fs::path target = resolved(file);
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(target.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(temporary_prefix(target)) && name.ends_with(temporary_ending)) fs::remove(entry.path(), error);
+  }
 }
 
 std::string read_file(const fs::path& file) {

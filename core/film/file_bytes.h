@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,9 +12,13 @@ namespace glimt {
 /// Throws where `file` cannot be created or replaced; leaves no trace.
 void check_replaceable(const std::filesystem::path& file);
 
-/// Writes a temporary file in the same folder and renames it, so that `file` is whole, or untouched where this throws.
-/// Follows symbolic links.
+/// Writes the pieces, one after the other, to a temporary file in the same folder. When it is on the disk, renames it.
+/// So `file` is whole, or untouched where this throws or the program is killed. Follows symbolic links.
+void replace_file(const std::filesystem::path& file, std::span<const std::string_view> pieces);
 void replace_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// Removes the temporary files of programs that were killed while they wrote `file`.
+void remove_unfinished(const std::filesystem::path& file);
 
 std::string read_file(const std::filesystem::path& file);
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace glimt {
 namespace {
@@ -106,8 +107,23 @@ void Film::add(int half, std::span<const Splat> splats) {
   }
 }
 
+void Film::add(const Film& other) {
+  if (other.width_ != width_ || other.height_ != height_ || other.scale_ != scale_)
+    throw std::invalid_argument("films of different units");
+  if (overlap_of(ranges_, other.ranges_)) throw std::invalid_argument("films with samples in common");
+  for (std::size_t h = 0; h < 2; ++h)
+    for (std::size_t i = 0; i < sums_[h].size(); ++i) {
+      const std::uint64_t sum = sums_[h][i] + other.sums_[h][i];
+      if (sum > largest_sum) count(saturated_);
+      sums_[h][i] = std::min(sum, largest_sum);
+    }
+  for (const SampleRange& range : other.ranges_) add_range(ranges_, range);
+  invalid_ += other.invalid_;
+  saturated_ += other.saturated_;
+}
+
 Image Film::mean() const {
-  const double factor = reciprocal(samples_);
+  const double factor = reciprocal(samples());
   return make_image(width_, height_, [&](int i) {
     const auto a = half_sum(i, 0), b = half_sum(i, 1);
     return std::array{(a[0] + b[0]) * factor, (a[1] + b[1]) * factor, (a[2] + b[2]) * factor};
@@ -123,11 +139,11 @@ Image Film::half_mean(int h) const {
 }
 
 Image Film::standard_error() const {
-  if (samples_ < 2) {
+  const double n0 = half_samples(0), n1 = half_samples(1);
+  if (n0 == 0 || n1 == 0) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     return make_image(width_, height_, [&](int) { return std::array{unknown, unknown, unknown}; });
   }
-  const double n0 = half_samples(0), n1 = half_samples(1);
   const double factor = std::sqrt(n0 * n1) / (n0 + n1);
   return make_image(width_, height_, [&](int i) {
     const auto a = half_sum(i, 0), b = half_sum(i, 1);

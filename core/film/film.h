@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "film/large_memory.h"
+#include "film/sample_range.h"
 #include "kernel/entry/kernels.h"
 
 namespace glimt {
@@ -33,10 +34,15 @@ class Film {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Samples that every pixel has.
-  int samples() const { return samples_; }
-  /// Says that every pixel has got samples [samples(), samples() + count).
-  void finish_pass(int count) { samples_ += count; }
+  /// Samples that every pixel has: how many, and which.
+  int samples() const { return count_of(ranges_); }
+  const SampleRanges& ranges() const { return ranges_; }
+  /// Samples are taken from this one on; 0 where it is not called.
+  void go_on_from(int first) { from_ = first; }
+  /// The samples to be taken next.
+  SampleRange missing() const { return first_gap(ranges_, from_); }
+  /// Says that every pixel has got the first `count` of those.
+  void finish_pass(int count) { add_range(ranges_, {missing().first, count}); }
 
   /// Adds a sample's radiance to each of a run of pixels, `rgb` three floats a pixel. Negative and non-finite values
   /// are counted in invalid() and add nothing; values and sums that do not fit stop at the largest and are counted in
@@ -48,12 +54,15 @@ class Film {
   /// Adds to what pixels have already of a sample of that half, from any thread and in any order.
   void add(int half, std::span<const Splat> splats);
 
+  /// Adds all samples of another film. Throws std::invalid_argument where both have a sample, or sums of other units.
+  void add(const Film& other);
+
   /// Counters that are 0 in a sound render.
   std::uint64_t invalid() const { return invalid_; }
   std::uint64_t saturated() const { return saturated_; }
 
   /// Samples that every pixel has in half h (0 or 1).
-  int half_samples(int h) const { return (samples_ + 1 - h) / 2; }
+  int half_samples(int h) const { return half_count_of(ranges_, h); }
   /// Sum of the radiance samples of one pixel in half h, W/(m^2 sr).
   std::array<double, 3> half_sum(int pixel, int h) const {
     const std::uint64_t* sum = sums_[static_cast<std::size_t>(h)].data() + 3 * static_cast<std::size_t>(pixel);
@@ -66,8 +75,19 @@ class Film {
   Image half_mean(int h) const;
   /// Standard error of mean() as seen from the halves: |h0 - h1| sqrt(n0 n1) / (n0 + n1) with n0, n1 samples in them.
   /// Its square is an unbiased estimate of the variance of the mean, also for correlated samplers; one pixel alone is
-  /// noisy (one degree of freedom). Infinite below two samples.
+  /// noisy (one degree of freedom). Infinite where a half has no sample.
   Image standard_error() const;
+
+  /// For files: the sums of half h, three a pixel, units of 1 / scale() and below 2^63.
+  std::span<const std::uint64_t> sums(int h) const { return sums_[static_cast<std::size_t>(h)]; }
+  std::span<std::uint64_t> sums(int h) { return sums_[static_cast<std::size_t>(h)]; }
+  double scale() const { return scale_; }
+  /// Says what sums that were read from a file hold.
+  void set_contents(const SampleRanges& ranges, std::uint64_t invalid, std::uint64_t saturated) {
+    ranges_ = ranges;
+    invalid_ = invalid;
+    saturated_ = saturated;
+  }
 
   /// Bytes held.
   std::size_t bytes() const {
@@ -84,7 +104,8 @@ class Film {
 
   int width_ = 0;
   int height_ = 0;
-  int samples_ = 0;
+  int from_ = 0;
+  SampleRanges ranges_;
   double scale_ = 1;              ///< a power of two
   std::uint32_t limit_bits_ = 0;  ///< of the smallest float that does not fit into a sum
   std::uint64_t invalid_ = 0;

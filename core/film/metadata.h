@@ -10,4 +10,7 @@ namespace glimt {
 /// setting by its key.
 Metadata render_metadata(const Scene& scene, int samples, double seconds);
 
+/// The same with "sample_ranges", which samples of each pixel there are: "0:64" is 64 from sample 0 on.
+Metadata render_metadata(const Scene& scene, const Film& film, double seconds);
+
 }  // namespace glimt

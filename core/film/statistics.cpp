@@ -129,7 +129,7 @@ double mean_of(const Film& film) {
 double relmse_estimate(const Film& film) { return estimate_error(film).relmse; }
 
 ErrorEstimate estimate_error(const Film& film) {
-  if (film.samples() < 2) return {};
+  if (film.half_samples(0) == 0 || film.half_samples(1) == 0) return {};
   const double n0 = film.half_samples(0), n1 = film.half_samples(1), n = n0 + n1;
   const double picture_mean = mean_of(film), scaled_floor = scaled_dark(picture_mean);
   const int block_rows = (film.height() + block_size - 1) / block_size;

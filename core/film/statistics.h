@@ -31,11 +31,11 @@ double mean(const Image& image);
 
 /// relmse of the film's mean, estimated without a reference: mean of (h0 - h1)^2 / 4 / (m^2 + 0.01), h0 and h1 the
 /// halves' pictures and m the mean over the aligned 8x8 block around the pixel (the quarter is n0 n1 / (n0 + n1)^2,
-/// which differs from it for odd counts). Infinite below two samples.
+/// which differs from it for odd counts). Infinite where a half has no sample.
 double relmse_estimate(const Film& film);
 
-/// The error of a film's mean, estimated without a reference; infinite below two samples. A black picture has no
-/// relmse_scaled either: it is infinite.
+/// The error of a film's mean, estimated without a reference; infinite where a half has no sample. A black picture has
+/// no relmse_scaled either: it is infinite.
 struct ErrorEstimate {
   double relmse = std::numeric_limits<double>::infinity();         ///< relmse_estimate
   double relmse_scaled = std::numeric_limits<double>::infinity();  ///< the same with scaled_dark(mean of the film)

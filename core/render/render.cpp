@@ -65,7 +65,9 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
       stop = true;
     }
   };
-  const auto sample_number = [&](int sample) { return static_cast<std::uint32_t>(film.samples() + sample); };
+  const auto sample_number = [first = film.missing().first](int sample) {
+    return static_cast<std::uint32_t>(first + sample);
+  };
 
 #pragma omp parallel num_threads(threads)
   {

@@ -22,9 +22,9 @@ Film make_film(const CompiledScene& scene);
 /// How far a cancelled pass has come: samples of it that each tile of the film has. Empty between passes.
 using PassProgress = std::vector<int>;
 
-/// Adds `count` samples to every pixel of the film, on all threads. Returns false where `cancel` (may be null) became
-/// true on the way; the film then holds a part of the pass, and is good for nothing but going on with the same pass
-/// (the same scene, count and `progress`) or clearing. Rethrows what a thread throws.
+/// Adds the first `count` of the film's missing() samples to every pixel, on all threads. Returns false where `cancel`
+/// (may be null) became true on the way; the film then holds a part of the pass, and is good for nothing but going on
+/// with the same pass (the same scene, count and `progress`) or clearing. Rethrows what a thread throws.
 bool render_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution,
                  const std::atomic<bool>* cancel = nullptr, PassProgress* progress = nullptr);
 

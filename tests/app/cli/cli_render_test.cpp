@@ -121,6 +121,7 @@ TEST_F(Render, ImagesHoldTheSceneThatMakesThemAgain) {
 TEST_F(Render, StatsSayWhatItWasAndWhatItCost) {
   const json s = stats({"--spp", "8", "--threads", "2", "--lanes", "1", "--shadow-rays", "2", "--seed", "3"});
   EXPECT_EQ(s.at("spp"), 8);
+  EXPECT_EQ(s.at("sample_ranges"), "0:8");
   EXPECT_EQ(s.at("width"), 24);
   EXPECT_EQ(s.at("height"), 16);
   EXPECT_EQ(s.at("paths"), 24 * 16 * 8);
@@ -308,7 +309,7 @@ TEST_F(Render, TerminalShowsProgressInOneLine) {
 TEST_F(Render, InterruptKeepsTheImageSoFar) {
   const Result result = program::run_on_terminal(
       {"render", scene, "-o", "a.exr", "--size", "24x16", "--seconds", "300", "--stats", "s.json"}, folder, "ETA");
-  EXPECT_EQ(result.status, 1) << result.out;
+  EXPECT_EQ(result.status, 130) << result.out;
   EXPECT_TRUE(has(result.out, "interrupted: a.exr holds")) << result.out;
   EXPECT_FALSE(has(result.out, "100 %")) << result.out;
   EXPECT_EQ(read_image(folder / "a.exr").width, 24);

@@ -5,10 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace glimt::program {
 namespace fs = std::filesystem;
@@ -42,22 +44,38 @@ std::string take(const fs::path& file) {
 
 }  // namespace
 
-Result run(const std::vector<std::string>& arguments, const fs::path& folder) {
+Running::Running(const std::vector<std::string>& arguments, const fs::path& folder) {
   const std::string stem = fs::path(folder).string() + "." + std::to_string(getpid());
-  const std::string out = stem + ".out", err = stem + ".err";
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) {
+  out_ = stem + ".out";
+  err_ = stem + ".err";
+  process_ = fork();
+  if (process_ < 0) throw std::runtime_error("fork failed");
+  if (process_ == 0) {
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
-    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    dup2(open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    dup2(open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     become_glimt(arguments, folder);
   }
+}
+
+Running::~Running() {
+  if (process_ == 0) return;
+  send(SIGKILL);
+  wait();
+}
+
+void Running::send(int signal) const { kill(process_, signal); }
+
+Result Running::wait() {
   Result result;
-  result.status = wait_for(child);
-  result.out = take(out);
-  result.err = take(err);
+  result.status = wait_for(std::exchange(process_, 0));
+  result.out = take(out_);
+  result.err = take(err_);
   return result;
+}
+
+Result run(const std::vector<std::string>& arguments, const fs::path& folder) {
+  return Running(arguments, folder).wait();
 }
 
 Result run_on_terminal(const std::vector<std::string>& arguments, const fs::path& folder,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +12,22 @@ namespace glimt::program {
 struct Result {
   int status = -1;  ///< exit status, or 128 + the signal that ended it
   std::string out, err;
+};
+
+/// glimt in `folder` with its output piped, from now on until it ends or is killed with this object.
+class Running {
+ public:
+  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  ~Running();
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  void send(int signal) const;
+  Result wait();
+
+ private:
+  std::string out_, err_;  ///< files with its output
+  pid_t process_ = 0;      ///< 0 once it has been waited for
 };
 
 /// Runs glimt in `folder` with its output piped.
