@@ -85,9 +85,9 @@ TEST_F(Checkpoints, OfAnotherRenderAreRefusedWithWhatDiffers) {
   expect_refused(resume({"--sampler", "sobol"}), "sampler is lattice, not sobol");
   expect_refused(resume({"--set", "material.clay.reflectance=[0.1, 0.2, 0.3]"}),
                  "[material.clay] has reflectance = [0.75, 0.75, 0.75], not [0.1, 0.2, 0.3]");
-  expect_refused(
-      glimt({"render", GLIMT_SCENES "/cornell.toml", "-o", "b.pfm", "--size", "24x16", "--resume", "a.ckpt"}),
-      "a.ckpt cannot be resumed, it is of another scene: ");
+  const std::string cornell = GLIMT_SCENES "/cornell.toml";
+  expect_refused(glimt({"render", cornell, "-o", "b.pfm", "--size", "24x16", "--resume", "a.ckpt"}),
+                 "a.ckpt cannot be resumed, it is of another scene: ");
   expect_refused(resume({"--spp", "6"}), "it holds samples 0 to 7 of each pixel, and samples 0 to 5 are asked for");
   expect_refused(resume({"--samples", "8:8"}), "it holds samples 0 to 7 of each pixel, and samples 8 to 15");
   cut("a.ckpt");
