@@ -56,7 +56,7 @@ std::uint32_t add_to_checksum(std::uint32_t sum, std::string_view bytes) {
 std::uint64_t size_of_file(const CheckpointStart& start) {
   const std::uint64_t pixels = static_cast<std::uint64_t>(start.width) * static_cast<std::uint64_t>(start.height);
   return checkpoint_signature.size() + sizeof start + start.version_length + start.scene_length +
-         sizeof(SampleRange) * std::uint64_t{start.range_count} + 2 * 3 * sizeof(std::uint64_t) * pixels;
+         sizeof(SampleRange) * std::uint64_t{start.range_count} + Film::pixel_bytes * pixels;
 }
 
 bool in_image_limits(int width, int height) {

@@ -89,6 +89,8 @@ class Film {
     saturated_ = saturated;
   }
 
+  /// Bytes of the sums of a pixel.
+  static constexpr std::size_t pixel_bytes = 2 * 3 * sizeof(std::uint64_t);
   /// Bytes held.
   std::size_t bytes() const {
     return sizeof(Film) + (sums_[0].capacity() + sums_[1].capacity()) * sizeof(std::uint64_t);

@@ -78,6 +78,13 @@ void write_image(const std::filesystem::path& file, const Film& film, const Disp
   });
 }
 
+std::uint64_t bytes_to_write(const std::filesystem::path& file, int width, int height) {
+  // Radiance (12), and what encodes it. An EXR has its error too, and its bytes in a stream that doubles when it grows
+  // (48) and in a copy (24).
+  const std::uint64_t per_pixel = format_of(file) == Format::exr ? 96 : 28;
+  return per_pixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+
 Image read_image(const std::filesystem::path& file) {
   return naming(file, [&] {
     const std::string bytes = read_file(file);

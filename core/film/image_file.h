@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -29,6 +30,9 @@ void check_writable(const std::filesystem::path& file);
 /// error.B its standard error, float32. .pfm: the mean radiance, float32. PNG and EXR carry the metadata. Written to a
 /// temporary file in the same folder and renamed. Throws ImageFileError.
 void write_image(const std::filesystem::path& file, const Film& film, const Display& display, const Metadata& metadata);
+
+/// Bytes that write_image takes for a film of this size, at most, beside the film itself.
+std::uint64_t bytes_to_write(const std::filesystem::path& file, int width, int height);
 
 /// The displayed picture of any image that the display's view may show. Throws ImageFileError.
 void write_png(const std::filesystem::path& file, const Image& image, const Display& display, const Metadata& metadata);

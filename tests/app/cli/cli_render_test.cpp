@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <stb_image.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -314,6 +315,38 @@ TEST_F(Render, InterruptKeepsTheImageSoFar) {
   EXPECT_FALSE(has(result.out, "100 %")) << result.out;
   EXPECT_EQ(read_image(folder / "a.exr").width, 24);
   EXPECT_EQ(std::stoi(read_metadata(folder / "a.exr").at("samples")), json::parse(read("s.json")).at("spp"));
+}
+
+// Half of the pixels' memory is not needed yet with one sample. The small picture takes what has nothing to do with
+// size.
+TEST_F(Render, TakesNoMoreMemoryThanItSays) {
+  for (const std::string out : {"a.png", "a.exr", "a.pfm"}) {
+    const auto peak = [&](const std::string& size) {
+      const program::Result result = glimt({"render", scene, "-o", out, "--size", size, "--spp", "2"});
+      EXPECT_EQ(result.status, 0) << result.err;
+      return 1024.0 * static_cast<double>(result.peak_kilobytes);
+    };
+    const double said =
+        static_cast<double>(Film::pixel_bytes) * 1e6 + static_cast<double>(bytes_to_write(out, 1000, 1000));
+    const double taken = peak("1000x1000") - peak("10x10");
+    EXPECT_LT(taken, 1.1 * said) << out;
+    EXPECT_GT(taken, 0.7 * said) << out << ": it asks for too much";
+  }
+}
+
+// The program may take 1.5 GB here, of which its code and threads have some.
+TEST_F(Render, AnImageBeyondMemoryIsRefusedAtOnce) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  rlimit limit = before;
+  limit.rlim_cur = 1'500'000'000;
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  const Result large = glimt({"render", scene, "-o", "a.exr", "--size", "8192x8192", "--threads", "1"});
+  setrlimit(RLIMIT_AS, &before);
+  EXPECT_EQ(large.status, 2);
+  EXPECT_TRUE(has(large.err, "an image of 8192x8192 takes 9.66 GB of memory, and ")) << large.err;
+  EXPECT_TRUE(has(large.err, " GB are free\n")) << large.err;
+  EXPECT_EQ(files(), 0U);
 }
 
 }  // namespace

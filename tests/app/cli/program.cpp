@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <pty.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,9 +27,9 @@ namespace {
   _exit(127);
 }
 
-int wait_for(pid_t child) {
+int wait_for(pid_t child, rusage* usage = nullptr) {
   int status = 0;
-  waitpid(child, &status, 0);
+  wait4(child, &status, 0, usage);
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
@@ -68,7 +69,9 @@ void Running::send(int signal) const { kill(process_, signal); }
 
 Result Running::wait() {
   Result result;
-  result.status = wait_for(std::exchange(process_, 0));
+  rusage usage{};
+  result.status = wait_for(std::exchange(process_, 0), &usage);
+  result.peak_kilobytes = usage.ru_maxrss;
   result.out = take(out_);
   result.err = take(err_);
   return result;

@@ -12,6 +12,7 @@ namespace glimt::program {
 struct Result {
   int status = -1;  ///< exit status, or 128 + the signal that ended it
   std::string out, err;
+  long peak_kilobytes = 0;  ///< largest resident size; 0 where it ran on a terminal
 };
 
 /// glimt in `folder` with its output piped, from now on until it ends or is killed with this object.

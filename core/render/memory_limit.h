@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace glimt {
+
+/// Bytes that this program can still take: what the machine has left, or the program's control group (cgroup, version 1
+/// or 2), one above it, or the limit of its address space, whichever is least. The largest number where nothing is
+/// known. `root` is where the system's files are.
+std::uint64_t free_memory(const std::filesystem::path& root = "/");
+
+}  // namespace glimt
