@@ -327,8 +327,8 @@ TEST_F(Render, TakesNoMoreMemoryThanItSays) {
       return 1024.0 * static_cast<double>(result.peak_kilobytes);
     };
     const double said =
-        static_cast<double>(Film::pixel_bytes) * 1e6 + static_cast<double>(bytes_to_write(out, 1000, 1000));
-    const double taken = peak("1000x1000") - peak("10x10");
+        static_cast<double>(Film::pixel_bytes) * 700 * 700 + static_cast<double>(bytes_to_write(out, 700, 700));
+    const double taken = peak("700x700") - peak("10x10");
     EXPECT_LT(taken, 1.1 * said) << out;
     EXPECT_GT(taken, 0.7 * said) << out << ": it asks for too much";
   }
