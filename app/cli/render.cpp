@@ -12,7 +12,7 @@
 #include "film/file_bytes.h"
 #include "film/metadata.h"
 #include "film/statistics.h"
-#include "render/memory_limit.h"
+#include "render/limits.h"
 #include "scene/file/scene_file.h"
 
 namespace glimt {
@@ -57,17 +57,23 @@ void warn_of_counters(const Film& film) {
                static_cast<unsigned long long>(film.invalid()), static_cast<unsigned long long>(film.saturated()));
 }
 
-/// Throws BadInput where the film and its picture do not fit into memory. The system would hand the memory out, and end
-/// the program when it writes to it, an hour later at worst.
-void check_memory(const RenderOptions& options, const ImageSize& image) {
+/// Throws BadInput where the film and its picture do not fit into memory, or the threads cannot be had. The system
+/// would hand the memory out, and end the program when it writes to it, an hour later at worst.
+void check_limits(const RenderOptions& options, const ImageSize& image) {
+  char text[128];
   const std::uint64_t pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   const std::uint64_t needed = Film::pixel_bytes * pixels + bytes_to_write(options.out, image.width, image.height);
-  const std::uint64_t free = free_memory();
-  if (needed <= free) return;
-  char text[128];
-  std::snprintf(text, sizeof text, "an image of %dx%d takes %.2f GB of memory, and %.2f GB are free", image.width,
-                image.height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9);
-  throw BadInput(text);
+  if (const std::uint64_t free = free_memory(); needed > free) {
+    std::snprintf(text, sizeof text, "an image of %dx%d takes %.2f GB of memory, and %.2f GB are free", image.width,
+                  image.height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9);
+    throw BadInput(text);
+  }
+  const int threads = options.execution.threads > 0 ? options.execution.threads : hardware_threads();
+  if (const int startable = startable_threads(threads); startable < threads) {
+    std::snprintf(text, sizeof text, "of %d threads only %d can be started here: give --threads a smaller number",
+                  threads, startable);
+    throw BadInput(text);
+  }
 }
 
 /// Writes the picture and --stats. Returns false, and says why, where they cannot be written.
@@ -86,7 +92,7 @@ bool write_results(const RenderOptions& options, const Checkpoint& result) {
 
 int run_render(const RenderOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
-  check_memory(options, scene.image);
+  check_limits(options, scene.image);
   const CompiledScene compiled = compile(scene);
   for (const auto& warning : compiled.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
   const Goal goal = goal_of(options, scene.render);

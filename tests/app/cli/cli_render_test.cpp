@@ -334,18 +334,37 @@ TEST_F(Render, TakesNoMoreMemoryThanItSays) {
   }
 }
 
-// The program may take 1.5 GB here, of which its code and threads have some.
-TEST_F(Render, AnImageBeyondMemoryIsRefusedAtOnce) {
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
-  rlimit limit = before;
-  limit.rlim_cur = 1'500'000'000;
-  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
-  const Result large = glimt({"render", scene, "-o", "a.exr", "--size", "8192x8192", "--threads", "1"});
-  setrlimit(RLIMIT_AS, &before);
-  EXPECT_EQ(large.status, 2);
-  EXPECT_TRUE(has(large.err, "an image of 8192x8192 takes 9.66 GB of memory, and ")) << large.err;
-  EXPECT_TRUE(has(large.err, " GB are free\n")) << large.err;
+/// Renders with a limit on the bytes of the address space, of which the program's code and threads have some.
+class LimitedRender : public Render {
+ protected:
+  Result render_within(rlim_t bytes, const Arguments& options) const {
+    rlimit before{};
+    EXPECT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+    rlimit limit = before;
+    limit.rlim_cur = bytes;
+    EXPECT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+    Arguments arguments{"render", scene, "-o", "a.exr", "--spp", "2"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Result result = glimt(arguments);
+    setrlimit(RLIMIT_AS, &before);
+    return result;
+  }
+};
+
+TEST_F(LimitedRender, AnImageBeyondMemoryIsRefusedAtOnce) {
+  const Result result = render_within(1'500'000'000, {"--size", "8192x8192", "--threads", "1"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(has(result.err, "an image of 8192x8192 takes 9.66 GB of memory, and ")) << result.err;
+  EXPECT_TRUE(has(result.err, " GB are free\n")) << result.err;
+  EXPECT_EQ(files(), 0U);
+}
+
+// A thread has a stack of 2 MB or more.
+TEST_F(LimitedRender, ThreadsThatCannotBeStartedAreRefusedAtOnce) {
+  const Result result = render_within(1'500'000'000, {"--size", "24x16", "--threads", "1024"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(has(result.err, "of 1024 threads only ")) << result.err;
+  EXPECT_TRUE(has(result.err, " can be started here: give --threads a smaller number\n")) << result.err;
   EXPECT_EQ(files(), 0U);
 }
 

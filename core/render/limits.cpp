@@ -1,14 +1,18 @@
-#include "render/memory_limit.h"
+#include "render/limits.h"
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <exception>
 #include <fstream>
+#include <latch>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 namespace glimt {
 namespace fs = std::filesystem;
@@ -83,6 +87,17 @@ std::uint64_t left_of_address_space(const fs::path& root) {
 std::uint64_t free_memory(const fs::path& root) {
   const auto machine = number_after(root / "proc/meminfo", "MemAvailable:");
   return std::min({machine ? *machine * 1024 : unlimited, left_in_groups(root), left_of_address_space(root)});
+}
+
+int startable_threads(int wanted) {
+  std::latch end(1);
+  std::vector<std::jthread> threads;
+  try {
+    while (static_cast<int>(threads.size()) + 1 < wanted) threads.emplace_back([&end] { end.wait(); });
+  } catch (const std::exception&) {  // no thread more, or no memory for its stack
+  }
+  end.count_down();
+  return static_cast<int>(threads.size()) + 1;
 }
 
 }  // namespace glimt

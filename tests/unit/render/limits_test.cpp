@@ -1,4 +1,4 @@
-#include "render/memory_limit.h"
+#include "render/limits.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -75,6 +75,10 @@ TEST_F(MemoryLimit, IsThatOfTheAddressSpace) {
 TEST_F(MemoryLimit, IsKnownHere) {
   EXPECT_GT(free_memory(), 0U);
   EXPECT_LT(free_memory(), std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST(ThreadLimit, ThreadsThatThereAreCanBeStarted) {
+  for (const int threads : {1, 2, 50}) EXPECT_EQ(startable_threads(threads), threads);
 }
 
 }  // namespace
