@@ -1,5 +1,7 @@
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <memory>
 #include <utility>
 
 #include "cli/commands.h"
