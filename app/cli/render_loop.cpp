@@ -75,7 +75,7 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
     count = std::min({count, goal.samples.count - film.samples(), film.missing().count});
     if (goal.relmse_scaled > 0) count = std::min(count, result.next_check - film.samples());
     const double pass = seconds_of([&] { render_pass(scene, film, count, execution); });
-    result.seconds += pass;
+    result.seconds = std::round((result.seconds + pass) * 1e9) / 1e9;
     sample_seconds = pass / count;
   }
 }

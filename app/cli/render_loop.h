@@ -26,7 +26,7 @@ struct Progress {
 
 /// How far a film has come; what it takes to go on as if there had been no break.
 struct Rendering {
-  double seconds = 0;    ///< wall-clock, in render_pass alone
+  double seconds = 0;    ///< wall-clock, in render_pass alone; whole nanoseconds, as checkpoints hold them
   int next_check = 0;    ///< samples at which to look next whether the error is reached
   bool reached = false;  ///< the goal; false where it was stopped
 };

@@ -53,16 +53,16 @@ TEST_F(Checkpoints, ResumedItIsTheUninterruptedRender) {
   made("a.pfm", {"--spp", "7", "--checkpoint", "a.ckpt", "--threads", "1"});
   made("a.pfm", {"--spp", "8", "--checkpoint", "a.ckpt", "--resume", "a.ckpt", "--lanes", "1"});
   made("b.pfm", {"--spp", "40", "--checkpoint", "b.ckpt", "--resume", "a.ckpt", "--threads", "3"});
-  EXPECT_EQ(read("whole.pfm"), read("b.pfm"));
+  EXPECT_TRUE(read("whole.pfm") == read("b.pfm"));
   expect_same_film(film_in(folder / "whole.ckpt"), film_in(folder / "b.ckpt"));
   EXPECT_EQ(film_in(folder / "a.ckpt").samples(), 8) << "--resume alone leaves the file as it is";
   EXPECT_GT(read_checkpoint(folder / "b.ckpt").seconds, read_checkpoint(folder / "a.ckpt").seconds) << "time adds up";
 }
 
 TEST_F(Checkpoints, AFinishedRenderIsWrittenAgain) {
-  made("a.png", {"--spp", "5", "--checkpoint", "a.ckpt"});
-  made("b.png", {"--spp", "5", "--checkpoint", "a.ckpt", "--resume", "a.ckpt"});
-  EXPECT_EQ(read("a.png"), read("b.png"));
+  made("a.png", {"--spp", "99", "--checkpoint", "a.ckpt"});
+  made("b.png", {"--spp", "99", "--checkpoint", "a.ckpt", "--resume", "a.ckpt"});
+  EXPECT_TRUE(read("a.png") == read("b.png"));
 }
 
 TEST_F(Checkpoints, TheSameCommandBeginsAndGoesOn) {
@@ -70,7 +70,7 @@ TEST_F(Checkpoints, TheSameCommandBeginsAndGoesOn) {
   made("a.pfm", options);
   EXPECT_EQ(film_in(folder / "a.ckpt").samples(), 4);
   made("b.pfm", options);
-  EXPECT_EQ(read("a.pfm"), read("b.pfm"));
+  EXPECT_TRUE(read("a.pfm") == read("b.pfm"));
 }
 
 // Any error is below this target, so the first look ends the render: the one that the checkpoint says, for its target.
@@ -119,7 +119,7 @@ TEST_F(Checkpoints, AreNotReplacedByOtherRenders) {
   const std::string before = read("a.ckpt");
   expect_refused(render("a.pfm", {"--checkpoint", "a.ckpt"}), "a.ckpt is there already: go on from it with --resume");
   expect_refused(render("a.pfm", {"--checkpoint", "a.ckpt", "--resume", "b.ckpt"}), "a.ckpt is there already");
-  EXPECT_EQ(read("a.ckpt"), before);
+  EXPECT_TRUE(read("a.ckpt") == before);
 }
 
 TEST_F(Checkpoints, OptionsThatMakeNoSenseAreRefused) {
@@ -139,7 +139,7 @@ TEST_F(Checkpoints, WhatWasLeftByAKilledProgramIsRemoved) {
   write(".b.ckpt.glimt-1-0.tmp", "another's");
   made("b.pfm", {"--spp", "6", "--checkpoint", "a.ckpt", "--resume", "a.ckpt"});
   made("c.pfm", {"--spp", "6"});
-  EXPECT_EQ(read("b.pfm"), read("c.pfm"));
+  EXPECT_TRUE(read("b.pfm") == read("c.pfm"));
   EXPECT_FALSE(fs::exists(folder / ".a.ckpt.glimt-1-0.tmp"));
   EXPECT_TRUE(fs::exists(folder / ".b.ckpt.glimt-1-0.tmp"));
 }
@@ -172,7 +172,7 @@ TEST_F(Merge, InAnyOrderItIsOneRenderBitForBit) {
     for (const std::string ending : {".exr", ".png"})
       EXPECT_EQ(making_of(folder / ("m" + ending)), making_of(folder / ("whole" + ending)));
     const std::string all = read("m.ckpt") + read("m.exr") + read("m.png");
-    EXPECT_EQ(all, first.empty() ? all : first) << "another order makes other files";
+    EXPECT_TRUE(first.empty() || all == first) << "another order makes other files";
     first = all;
   } while (std::ranges::next_permutation(order).found);
 }
@@ -184,7 +184,7 @@ TEST_F(Merge, InStepsItIsTheSameAsAtOnce) {
   part("c", "7:5");
   ASSERT_EQ(glimt({"merge", "c", "a", "-o", "ac.ckpt"}).status, 0);
   ASSERT_EQ(glimt({"merge", "ac.ckpt", "b", "-o", "abc.pfm"}).status, 0);
-  EXPECT_EQ(read("abc.pfm"), read("whole.pfm"));
+  EXPECT_TRUE(read("abc.pfm") == read("whole.pfm"));
 }
 
 TEST_F(Merge, GapsAreToldAndCanBeFilled) {
@@ -197,7 +197,7 @@ TEST_F(Merge, GapsAreToldAndCanBeFilled) {
   ASSERT_EQ(glimt({"merge", "ab.ckpt", "-o", "ab.exr"}).status, 0);
   EXPECT_EQ(read_metadata(folder / "ab.exr").at("sample_ranges"), "2:3,9:1");
   made("all.pfm", {"--spp", "20", "--resume", "ab.ckpt"});
-  EXPECT_EQ(read("all.pfm"), read("whole.pfm"));
+  EXPECT_TRUE(read("all.pfm") == read("whole.pfm"));
 }
 
 TEST_F(Merge, RefusesWhatDoesNotBelongTogether) {
@@ -272,7 +272,7 @@ class Breaks : public Checkpoints {
     RecordProperty("kills_in_writing", in_writing);
     const Result result = glimt(again);
     ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_EQ(read("a.pfm"), read("whole.pfm")) << "seed " << seed;
+    EXPECT_TRUE(read("a.pfm") == read("whole.pfm")) << "seed " << seed;
     EXPECT_FALSE(writes_a_checkpoint()) << "nothing is left of what was killed";
   }
 
@@ -307,7 +307,7 @@ TEST_F(Breaks, ASignalLeavesThePictureAndTheCheckpoint) {
     const std::string spp = std::to_string(film.samples() + 10);
     ASSERT_EQ(glimt(command("a.pfm", {"--spp", spp, "--resume", name + ".ckpt"})).status, 0);
     ASSERT_EQ(glimt(command("b.pfm", {"--spp", spp})).status, 0);
-    EXPECT_EQ(read("a.pfm"), read("b.pfm"));
+    EXPECT_TRUE(read("a.pfm") == read("b.pfm"));
   }
 }
 
