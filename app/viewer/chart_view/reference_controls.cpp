@@ -7,8 +7,6 @@
 namespace glimt {
 namespace {
 
-constexpr double least_target = 1e-7, most_target = 0.1;
-
 std::string error_text(const Frame& frame) {
   return std::isfinite(frame.estimate.relmse_scaled) ? "relMSE " + short_number(frame.estimate.relmse_scaled)
                                                      : "error unknown";
@@ -35,7 +33,7 @@ void draw_reference_controls(const ViewerState& state, Edits& edits) {
             "does.\nDrag, or Ctrl+click to type a number.");
   double target = chart.target;
   ImGui::PushID("target");
-  if (logarithmic_slider(target, least_target, most_target, " relMSE")) edits.reference_target = target;
+  if (logarithmic_slider(target, least_error, most_error, " relMSE")) edits.reference_target = target;
   note_widget("reference.target");
   ImGui::PopID();
 

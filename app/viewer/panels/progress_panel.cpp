@@ -33,7 +33,6 @@ std::string duration(double seconds) {
 }
 
 constexpr const char* dash = "\u2013";
-constexpr double least_error = 1e-6, most_error = 1;
 
 /// Of the way to the target, 0..1; the error falls as 1 / samples.
 double share_done(const Settings& settings, const Frame& frame) {
@@ -63,8 +62,8 @@ void draw_trend(const ViewerState& state, const Frame& frame, bool ends, double 
   std::vector<ImVec2> logs;
   if (curve && frame.samples > 1)
     for (const RunPoint& p : curve->points)
-      if (p.seconds > 0 && p.estimate > 0 && std::isfinite(p.estimate))
-        logs.emplace_back(static_cast<float>(std::log(p.seconds)), static_cast<float>(std::log(p.estimate)));
+      if (const auto error = error_of(p, ErrorKind::estimate); error && p.seconds > 0)
+        logs.emplace_back(static_cast<float>(std::log(p.seconds)), static_cast<float>(std::log(*error)));
   if (logs.size() < 2) return;
   const auto [low, high] = std::ranges::minmax(logs, {}, &ImVec2::y);
   const float left = logs.front().x, across = std::max(logs.back().x - left, 1e-3F);

@@ -241,6 +241,7 @@ void Controller::open_picture(const fs::path& file) {
   goal.samples = made.render.spp;
   state_.fits_window = false;
   edit({std::make_shared<const Scene>(std::move(made)), state_.file, goal});
+  show(now());  // in its own size, also where no edit was left to make
   set_file(file);
   if (metadata.contains("exposure")) state_.display = read_display(metadata);
   state_.message = {"Opened the scene in " + file.filename().string()};

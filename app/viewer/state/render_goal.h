@@ -12,6 +12,9 @@ namespace glimt {
 enum class StopAt { never, samples, error };
 inline constexpr std::array<std::string_view, 3> stop_at_names{"never", "samples", "error"};
 
+/// Errors that can be asked for.
+inline constexpr double least_error = 1e-7, most_error = 1;
+
 /// How far the window renders. It is the window's own: the target in the scene's settings is for the command line, and
 /// stays as it is in the file.
 struct RenderGoal {
