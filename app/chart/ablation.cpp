@@ -131,14 +131,13 @@ std::vector<Piece> pieces_of(const Scene& scene) {
   return pieces;
 }
 
-double relmse_of_difference(const Film& a, const Film& b) {
+double error_of_difference(const Film& a, const Film& b) {
   const Image a0 = a.half_mean(0), a1 = a.half_mean(1), b0 = b.half_mean(0), b1 = b.half_mean(1);
-  const Image weights = relative_weights(b.mean());
+  const std::vector<double> weights = relative_weights(b.mean());
   double total = 0;
-  for (std::size_t i = 0; i < weights.rgb.size(); ++i)
-    total +=
-        (static_cast<double>(a0.rgb[i]) - b0.rgb[i]) * (static_cast<double>(a1.rgb[i]) - b1.rgb[i]) * weights.rgb[i];
-  return total / static_cast<double>(weights.rgb.size());
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    total += (static_cast<double>(a0.rgb[i]) - b0.rgb[i]) * (static_cast<double>(a1.rgb[i]) - b1.rgb[i]) * weights[i];
+  return total / static_cast<double>(weights.size());
 }
 
 std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& pieces, const Plan& plan,
@@ -156,12 +155,12 @@ std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& piece
       changed[i].settings.seed = base.settings.seed;
       Film part = make_film(changed[i]), whole = make_film(base);
       const double time = render_both(changed[i], part, base, whole, plan);
-      const double noise = relmse_estimate(part) / relmse_estimate(whole);
+      const double noise = estimate_error(part).relmse_scaled / estimate_error(whole).relmse_scaled;
       all[i].time.push_back(time);
       all[i].noise.push_back(noise);
       all[i].efficiency.push_back(1 / (noise * time));
       all[i].mean.push_back(mean(part.mean()) / mean(whole.mean()));
-      all[i].difference.push_back(relmse_of_difference(part, whole));
+      all[i].difference.push_back(error_of_difference(part, whole));
       if (report) report(++done / work);
     }
   }

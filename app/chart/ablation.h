@@ -24,19 +24,18 @@ std::vector<Piece> pieces_of(const Scene& scene);
 /// difference, which is a mean.
 struct Ablation {
   double time = 1;              ///< over the time of the scene as it is
-  double noise = 1;             ///< relmse_estimate over that of the scene as it is
+  double noise = 1;             ///< estimated relmse_scaled over that of the scene as it is
   double efficiency = 1;        ///< 1 / (noise * time)
   double efficiency_low = 1;    ///< lower quartile
   double efficiency_high = 1;   ///< upper quartile
-  double difference = 0;        ///< relmse between the images without their noise; below 0 by chance alone
+  double difference = 0;        ///< relmse_scaled between the images without noise; below 0 by chance alone
   double difference_error = 0;  ///< its standard error over seeds
   double mean = 1;              ///< radiance over that of the scene as it is
 };
 
-/// relmse between two films' expected images: mean of (a0 - b0)(a1 - b1) / (m^2 + 0.01) over pixels and channels, a0
-/// and a1 the halves' pictures of a, and m the mean of b over the 8x8 block around. Halves are independent, so noise
-/// averages out.
-double relmse_of_difference(const Film& a, const Film& b);
+/// relmse_scaled between two films' expected images: mean of (a0 - b0)(a1 - b1) times b's relative_weights over pixels
+/// and channels, a0 and a1 the halves' pictures of a. Halves are independent, so noise averages out.
+double error_of_difference(const Film& a, const Film& b);
 
 /// Renders the scene and all pieces in turn to plan.spp samples with plan.seeds seeds. `report` is called with the
 /// share done.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace glimt {
@@ -45,19 +46,23 @@ int best_shadow_rays(const ShadowRayModel& model) {
 }
 
 ShadowRayAdvice shadow_ray_advice(std::span<const int> rays, std::span<const Measurement> measurements) {
-  std::map<int, std::size_t> runs_with;  // by samples
-  for (const Measurement& m : measurements)
-    if (std::isfinite(m.relmse_estimate)) ++runs_with[m.spp];
+  std::set<std::pair<std::size_t, int>> runs;  // variant and seed
+  std::map<int, std::size_t> known;            // runs that know their error, by samples
+  for (const Measurement& m : measurements) {
+    runs.emplace(m.variant, m.seed);
+    if (std::isfinite(m.estimate)) ++known[m.spp];
+  }
   ShadowRayAdvice advice;
-  for (const auto& [spp, runs] : runs_with)
-    if (runs == runs_with.begin()->second) advice.samples = spp;
+  for (const auto& [spp, count] : known)
+    if (count == runs.size()) advice.samples = spp;
+  if (advice.samples == 0) throw std::runtime_error("Too little light was found to tell how many shadow rays pay");
 
   std::map<int, std::array<ShadowRayRun, 2>> by_seed;
   std::array<std::vector<double>, 2> errors, seconds;
   for (const Measurement& m : measurements) {
     if (m.spp != advice.samples) continue;
-    by_seed[m.seed].at(m.variant) = {rays[m.variant], m.relmse_estimate, m.seconds};
-    errors.at(m.variant).push_back(m.relmse_estimate);
+    by_seed[m.seed].at(m.variant) = {rays[m.variant], m.estimate, m.seconds};
+    errors.at(m.variant).push_back(m.estimate);
     seconds.at(m.variant).push_back(m.seconds);
   }
   for (std::size_t i = 0; i < rays.size(); ++i)
@@ -67,7 +72,7 @@ ShadowRayAdvice shadow_ray_advice(std::span<const int> rays, std::span<const Mea
 
   std::vector<double> bests;
   bests.reserve(by_seed.size());
-  for (const auto& [seed, runs] : by_seed) bests.push_back(best_shadow_rays(shadow_ray_model(runs[0], runs[1])));
+  for (const auto& [seed, both] : by_seed) bests.push_back(best_shadow_rays(shadow_ray_model(both[0], both[1])));
   advice.low = static_cast<int>(std::floor(quantile(bests, 0.25)));
   advice.high = static_cast<int>(std::ceil(quantile(bests, 0.75)));
   return advice;

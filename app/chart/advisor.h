@@ -13,7 +13,7 @@ namespace glimt {
 /// A rendering with M shadow rays.
 struct ShadowRayRun {
   int shadow_rays = 1;
-  double error = 0;    ///< relmse at some number of samples, the same for all runs
+  double error = 0;    ///< relmse_scaled at some number of samples, the same for all runs
   double seconds = 0;  ///< up to there
 };
 
@@ -48,7 +48,7 @@ struct ShadowRayAdvice {
 };
 
 /// The advice of measurements whose variant i has rays[i] shadow rays, two variants: at the largest number of samples
-/// that all have.
+/// where all know their error. Throws std::runtime_error where there is none: a picture is black.
 ShadowRayAdvice shadow_ray_advice(std::span<const int> rays, std::span<const Measurement> measurements);
 
 /// Renders the scene with 1 and with 4 shadow rays in turn. `report` is called with the share done, and may throw to

@@ -34,18 +34,18 @@ std::vector<Part> parts_of(Scene scene) {
   return parts;
 }
 
-/// Each family's part of relmse.
+/// Each family's part of relmse_scaled.
 Errors errors_of(const std::vector<Part>& parts, const std::vector<bool>& specular) {
   Image picture = parts.front().film.mean();
   if (parts.size() > 1) std::ranges::transform(picture.rgb, parts[1].film.mean().rgb, picture.rgb.begin(), std::plus());
-  const Image weights = relative_weights(picture);
+  const std::vector<double> weights = relative_weights(picture);
   Errors errors{};
   for (const Part& part : parts) {
     const Image deviation = part.film.standard_error();
     const std::size_t family = part.light == Caustics::only ? 0 : 2;
-    for (std::size_t i = 0; i < weights.rgb.size(); ++i)
-      errors.at(family + (specular[i / 3] ? 1 : 0)) += static_cast<double>(deviation.rgb[i]) * deviation.rgb[i] *
-                                                       weights.rgb[i] / static_cast<double>(weights.rgb.size());
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      errors.at(family + (specular[i / 3] ? 1 : 0)) +=
+          static_cast<double>(deviation.rgb[i]) * deviation.rgb[i] * weights[i] / static_cast<double>(weights.size());
   }
   return errors;
 }

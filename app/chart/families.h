@@ -14,7 +14,7 @@ namespace glimt {
 
 /// Over seeds.
 struct Family {
-  double error = 0;          ///< its part of relmse, mean
+  double error = 0;          ///< its part of relmse_scaled, mean
   double share = 0;          ///< of the error of all families, mean; 0 where there is no error
   double low = 0, high = 0;  ///< quartiles of the share
   double pixels = 0;         ///< share of the pixels it is seen in
@@ -45,7 +45,7 @@ inline constexpr std::array<FamilyText, 4> family_texts{{
 std::vector<bool> sees_specular(const Scene& scene);
 
 /// Renders the scene without caustics and with nothing else in turn, each with plan.seeds seeds to equal sample counts,
-/// plan.seconds or plan.spp at most. Errors are as in relmse_estimate, from each one's halves, relative to the sum of
+/// plan.seconds or plan.spp at most. Errors are relmse_scaled as each one's halves estimate it, relative to the sum of
 /// both. Seeds are the scene's own and those that follow. What the scene's own setting of caustics leaves out is left
 /// out. `report` is called with the share done, and may throw to end it. Throws std::runtime_error where the scene has
 /// no mirrors and no glass.

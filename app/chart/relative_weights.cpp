@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "film/statistics.h"
+
 namespace glimt {
 
-Image relative_weights(Image picture) {
+std::vector<double> relative_weights(const Image& picture) {
   constexpr int block = 8;
-  constexpr double dark = 0.01;
+  const double dark = scaled_dark(mean(picture));
+  std::vector<double> weights(picture.rgb.size(), 0);
+  if (!(dark > 0)) return weights;
   for (int y0 = 0; y0 < picture.height; y0 += block)
     for (int x0 = 0; x0 < picture.width; x0 += block) {
       const int y1 = std::min(y0 + block, picture.height), x1 = std::min(x0 + block, picture.width);
@@ -16,10 +20,11 @@ Image relative_weights(Image picture) {
           for (int x = x0; x < x1; ++x) sum += static_cast<double>(picture.pixel(x, y)[c]);
         const double m = sum / ((y1 - y0) * (x1 - x0));
         for (int y = y0; y < y1; ++y)
-          for (int x = x0; x < x1; ++x) picture.pixel(x, y)[c] = static_cast<float>(1 / (m * m + dark));
+          for (int x = x0; x < x1; ++x)
+            weights[3 * static_cast<std::size_t>(y * picture.width + x) + c] = 1 / (m * m + dark);
       }
     }
-  return picture;
+  return weights;
 }
 
 }  // namespace glimt

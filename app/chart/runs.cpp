@@ -85,7 +85,8 @@ std::vector<Measurement> measure(std::span<Variant> variants, const Plan& plan, 
         const int end = last[i] > 0 ? last[i] : plan.spp;
         seconds[i] +=
             seconds_of_pass(variants[i].scene, film, std::min(std::max(1, samples), end - samples), plan.execution);
-        measurements.push_back({i, variants[i].scene.settings.seed, film.samples(), seconds[i], relmse_estimate(film)});
+        measurements.push_back(
+            {i, variants[i].scene.settings.seed, film.samples(), seconds[i], estimate_error(film).relmse_scaled});
         if (reference) measurements.back().error = compare(film.mean(), *reference);
         time = std::max({time, seconds[i] / plan.seconds, static_cast<double>(film.samples()) / plan.spp});
       }
@@ -110,7 +111,7 @@ Outcome outcome(std::span<const Measurement> measurements, std::size_t variant) 
   const auto all = by_spp(measurements, variant);
   if (all.empty()) return {};
   const auto& [spp, last] = *all.rbegin();
-  const auto error = [](const Measurement& m) { return m.error ? m.error->relmse999 : m.relmse_estimate; };
+  const auto error = [](const Measurement& m) { return m.error ? m.error->relmse999 : m.estimate; };
   return {spp, quantile(values_of(last, [](const Measurement& m) { return m.seconds; }), 0.5),
           quantile(values_of(last, error), 0.5),
           quantile(values_of(last, [&](const Measurement& m) { return 1 / (error(m) * m.seconds); }), 0.5)};
@@ -123,28 +124,31 @@ Chart error_chart(std::span<const Variant> variants, std::span<const Measurement
     ChartCurve curve;
     curve.label = variants[i].label;
     for (const auto& [spp, at] : by_spp(measurements, i)) {
-      const ChartPoint estimate = point_of(at, [](const Measurement& m) { return m.relmse_estimate; });
-      curve.points.push_back(compared ? point_of(at, [](const Measurement& m) { return m.error->relmse; }) : estimate);
+      const ChartPoint estimate = point_of(at, [](const Measurement& m) { return m.estimate; });
+      curve.points.push_back(compared ? point_of(at, [](const Measurement& m) { return m.error->relmse_scaled; })
+                                      : estimate);
       if (compared) curve.thin.push_back(estimate);
     }
     chart.curves.push_back(std::move(curve));
   }
   chart.x.label = "rendering time, seconds";
-  chart.y.label = compared ? "error: relmse against the reference" : "error: relmse, estimated from two halves";
-  chart.guide = "equal efficiency: relmse falls as 1/time, its root as time^(−1/2)";
+  chart.y.label =
+      compared ? "error: relmse_scaled against the reference" : "error: relmse_scaled, estimated from two halves";
+  chart.guide = "equal efficiency: the error falls as 1/time, its root as time^(−1/2)";
   chart.notes.emplace_back("Median and quartiles over seeds.");
   if (compared)
-    chart.notes.emplace_back("Thin line: relmse as the picture's own two halves estimate it, without the reference.");
+    chart.notes.emplace_back(
+        "Thin line: the error as the picture's own two halves estimate it, without the reference.");
   return chart;
 }
 
 std::string measurements_csv(std::span<const Variant> variants, std::span<const Measurement> measurements) {
-  std::string csv = "method,seed,spp,seconds,relmse,relmse999,relmse_estimate\n";
+  std::string csv = "method,seed,spp,seconds,relmse_scaled,relmse999,relmse_scaled_estimate\n";
   for (const auto& m : measurements) {
     csv += csv_text(variants[m.variant].name) + "," + std::to_string(m.seed) + "," + std::to_string(m.spp) + "," +
            csv_number(m.seconds) + ",";
-    csv += m.error ? csv_number(m.error->relmse) + "," + csv_number(m.error->relmse999) + "," : ",,";
-    csv += (std::isfinite(m.relmse_estimate) ? csv_number(m.relmse_estimate) : "") + "\n";
+    csv += m.error ? csv_number(m.error->relmse_scaled) + "," + csv_number(m.error->relmse999) + "," : ",,";
+    csv += (std::isfinite(m.estimate) ? csv_number(m.estimate) : "") + "\n";
   }
   return csv;
 }

@@ -31,7 +31,7 @@ struct Measurement {
   int seed = 0;
   int spp = 0;
   double seconds = 0;                 ///< wall-clock, of rendering
-  double relmse_estimate = 0;         ///< from the two halves; infinite below two samples
+  double estimate = 0;                ///< relmse_scaled, from the two halves; infinite where unknown
   std::optional<Comparison> error{};  ///< against the reference, where there is one
 };
 
@@ -51,16 +51,17 @@ double quantile(std::vector<double> values, double q);
 struct Outcome {
   int spp = 0;
   double seconds = 0;
-  double error = 0;       ///< relmse999 against the reference, or the estimate
+  double error = 0;       ///< relmse999 against the reference, or the estimate of relmse_scaled
   double efficiency = 0;  ///< 1 / (error * seconds)
 };
 Outcome outcome(std::span<const Measurement> measurements, std::size_t variant);
 
-/// Error against time: medians and quartiles over seeds. The error is relmse against the reference with the estimate as
-/// thin line, or the estimate alone.
+/// Error against time: medians and quartiles over seeds. The error is relmse_scaled against the reference with its
+/// estimate as thin line, or the estimate alone. The brightness of the scene moves no curve.
 Chart error_chart(std::span<const Variant> variants, std::span<const Measurement> measurements);
 
-/// One line for each measurement: method, seed, spp, seconds, relmse, relmse999, relmse_estimate; unknown ones empty.
+/// One line for each measurement: method, seed, spp, seconds, relmse_scaled, relmse999, and relmse_scaled as estimated;
+/// unknown ones empty.
 std::string measurements_csv(std::span<const Variant> variants, std::span<const Measurement> measurements);
 
 }  // namespace glimt

@@ -29,7 +29,7 @@ void print_families(const Scene& scene, Plan plan, bool show) {
   std::printf(
       "\nThe error of \"%s\" by the light that it is of and by what the pixel sees first; quartiles over seeds.\n\n",
       scene.name.c_str());
-  std::printf("%-32s %8s %6s  %-9s %6s\n", "family", "relmse", "share", "quartiles", "pixels");
+  std::printf("%-32s %8s %6s  %-9s %6s\n", "family", "error", "share", "quartiles", "pixels");
   for (std::size_t i = 0; i < families.all.size(); ++i) {
     const Family& f = families.all.at(i);
     std::printf("%-32s %8.1e %5.0f%%  %3.0f..%3.0f%% %5.1f%%\n", family_texts.at(i).name.data(), f.error, 100 * f.share,
@@ -53,9 +53,10 @@ void print_ablation(const Scene& scene, const Plan& plan, bool show) {
       "One piece of \"%s\" changed at a time, %d spp, %d seeds; all but the difference in %% of the scene's own.\n",
       scene.name.c_str(), plan.spp, plan.seeds);
   std::printf(
-      "Difference: relmse between the images without their noise; below %.0e they are taken to be the same.\n\n",
+      "Errors are relmse_scaled. The difference is that between the images without noise; below %.0e they are the "
+      "same.\n\n",
       visible_difference);
-  std::printf("%-*s %7s %8s %11s  %-18s  %s\n", column, "change", "time", "relmse", "efficiency", "difference",
+  std::printf("%-*s %7s %8s %11s  %-18s  %s\n", column, "change", "time", "error", "efficiency", "difference",
               "verdict");
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Ablation& a = results[i];

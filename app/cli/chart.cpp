@@ -59,7 +59,7 @@ void print_outcomes(const std::vector<Variant>& variants, const std::vector<Meas
   for (const auto& variant : variants) widest = std::max(widest, variant.label.size());
   const int column = static_cast<int>(widest);
   std::printf("%-*s %8s %9s %10s %11s\n", column, "method", "spp", "seconds",
-              measurements.front().error ? "relmse999" : "est.relmse", "efficiency");
+              measurements.front().error ? "relmse999" : "estimate", "efficiency");
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const Outcome o = outcome(measurements, i);
     std::printf("%-*s %8d %9.3f %10.3g %11.3g\n", column, variants[i].label.c_str(), o.spp, o.seconds, o.error,

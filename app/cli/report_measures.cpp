@@ -81,7 +81,8 @@ void add_ablation(Page& page, const ReportPlan& plan, const Scene& scene, const 
                     percent(std::sqrt(difference)), percent(a.mean - 1), "× " + figure_text(a.time),
                     "× " + figure_text(a.efficiency), verdict(pieces[i], a)});
   }
-  page.table({"", "relmse of the difference", "its root", "mean radiance", "time", "efficiency", "verdict"}, rows,
+  page.table({"", "relmse_scaled of the difference", "its root", "mean radiance", "time", "efficiency", "verdict"},
+             rows,
              caption + " Against path with one shadow ray, " + std::to_string(runs.spp) + " spp, " +
                  std::to_string(runs.seeds) + " seeds; differences are without noise.");
 }
@@ -162,7 +163,7 @@ void add_chart(Page& page, const ReportPlan& plan) {
   Chart chart = error_chart(variants, measure(variants, runs, &image, {}));
   chart.title = "The full room, " + side + "x" + side + " pixels, one shadow ray";
   page.chart(svg_chart(chart), "The reference is a picture by path of " + std::to_string(reference.samples()) +
-                                   " spp with relmse " + figure_text(relmse_estimate(reference)) +
+                                   " spp with relmse_scaled " + figure_text(estimate_error(reference).relmse_scaled) +
                                    ", as it estimates.");
 }
 

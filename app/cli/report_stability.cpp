@@ -157,7 +157,7 @@ void add_value(std::vector<ChartCurve>& curves, const ReportPlan& plan, const Di
       scene.settings.seed = 100 + seed;
       Film film = make_film(scene);
       render_pass(scene, film, plan.spp(64), plan.execution);
-      errors.push_back(compare(film.mean(), image).relmse);
+      errors.push_back(compare(film.mean(), image).relmse_scaled);
     }
     curves[i].points.push_back({value, quantile(errors, 0.5), quantile(errors, 0.25), quantile(errors, 0.75)});
   }
@@ -167,13 +167,15 @@ void add_value(std::vector<ChartCurve>& curves, const ReportPlan& plan, const Di
 
 void add_stability(Page& page, const ReportPlan& plan) {
   page.heading("Stability: where methods fail");
-  page.paragraph("One sphere in the room; in each chart one thing goes from easy to hard. Errors are relmse at " +
-                 std::to_string(plan.spp(64)) + " spp against a picture of " + std::to_string(plan.spp(4096)) +
-                 " spp by path with multiple importance sampling. A black picture's relmse is below 1, so a method "
-                 "that never meets the lamp looks better than one that meets it now and then.");
+  page.paragraph(
+      "One sphere in the room; in each chart one thing goes from easy to hard. Errors are relmse_scaled at " +
+      std::to_string(plan.spp(64)) + " spp against a picture of " + std::to_string(plan.spp(4096)) +
+      " spp by path with multiple importance sampling. A black picture's error is below 1, so a method "
+      "that never meets the lamp looks better than one that meets it now and then.");
   for (const Difficulty& difficulty : difficulties()) {
     plan.say("stability: " + difficulty.title);
-    Chart chart{difficulty.title, difficulty.axis, {"relmse at " + std::to_string(plan.spp(64)) + " spp"}, {}, {}, {}};
+    const ChartAxis error{"error: relmse_scaled at " + std::to_string(plan.spp(64)) + " spp"};
+    Chart chart{difficulty.title, difficulty.axis, error, {}, {}, {}};
     for (const Way& way : ways) chart.curves.push_back({way.label, {}, {}});
     for (const double value : difficulty.values) add_value(chart.curves, plan, difficulty, value);
     page.chart(svg_chart(chart), "Median and quartiles over seeds.");

@@ -23,17 +23,19 @@ std::string curves_svg(const std::vector<Curve>& curves, Across axis, const std:
   for (const Curve& curve : curves) {
     if (!curve.shown) continue;
     ChartCurve drawn{curve.label, {}, {}};
-    const bool has_reference = error_kind(curve) == ErrorKind::reference;
+    const ErrorKind kind = error_kind(curve);
+    const bool has_reference = kind == ErrorKind::reference;
     compared |= has_reference;
     for (const RunPoint& p : curve.points) {
-      if (p.error) drawn.points.push_back(point(p, p.error->relmse));
-      (has_reference ? drawn.thin : drawn.points).push_back(point(p, p.estimate));
+      if (const auto error = error_of(p, kind)) drawn.points.push_back(point(p, *error));
+      const auto estimate = error_of(p, ErrorKind::estimate);
+      if (has_reference && estimate) drawn.thin.push_back(point(p, *estimate));
     }
     chart.curves.push_back(std::move(drawn));
   }
   chart.x.label = axis == Across::seconds ? "rendering time, seconds" : "samples per pixel";
-  chart.y.label = compared ? "error: relmse" : "error: relmse, estimated from two halves";
-  chart.guide = "relmse falls as 1/time, its root as time^(−1/2)";
+  chart.y.label = compared ? "error: relmse_scaled" : "error: relmse_scaled, estimated from two halves";
+  chart.guide = "the error falls as 1/time, its root as time^(−1/2)";
   if (compared)
     chart.notes.emplace_back(
         "Against the reference; thin, and alone where there is none: as estimated from two halves.");

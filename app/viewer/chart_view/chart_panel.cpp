@@ -63,7 +63,8 @@ std::optional<PlotPoint> draw_error_plot(const ChartState& chart, const Rect& pl
   plot.draw_axes(chart.view.across == Across::seconds ? "seconds" : "samples per pixel",
                  compared ? "relMSE to the reference; thin: as estimated" : "relMSE, estimated from two halves");
   plot.draw_guide(chart.view.across == Across::seconds ? "1/time (root: slope -1/2)" : "1/samples (root: slope -1/2)");
-  if (chart.reference_fits) plot.draw_level(chart.reference->frame->estimate.relmse, "the reference's own error");
+  if (chart.reference_fits)
+    plot.draw_level(chart.reference->frame->estimate.relmse_scaled, "the reference's own error");
   draw_in_layers(plot, place, drawn);
   const auto pointer = plot.under_mouse();
   if (pointer) plot.draw_crosshair(*pointer);

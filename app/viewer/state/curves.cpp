@@ -51,7 +51,7 @@ double across(const RunPoint& point, Across axis) { return axis == Across::secon
 
 std::optional<double> error_of(const RunPoint& point, ErrorKind kind) {
   if (kind == ErrorKind::reference && !point.error) return std::nullopt;
-  const double error = kind == ErrorKind::estimate ? point.estimate : point.error->relmse;
+  const double error = kind == ErrorKind::estimate ? point.estimate : point.error->relmse_scaled;
   return error >= least_told && std::isfinite(error) ? std::optional(error) : std::nullopt;
 }
 

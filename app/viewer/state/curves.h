@@ -16,7 +16,7 @@ namespace glimt {
 struct RunPoint {
   int samples = 0;
   double seconds = 0;               ///< of rendering
-  double estimate = 0;              ///< relmse, from the two halves
+  double estimate = 0;              ///< relmse_scaled, from the two halves
   std::optional<Comparison> error;  ///< against the reference, where there was one
 };
 
@@ -35,9 +35,8 @@ struct Curve {
 enum class Across { seconds, samples };
 double across(const RunPoint& point, Across axis);
 
-/// The error that a curve stands for: against the reference, or the estimate. Nothing where the point has none, and
-/// where it is below `least_told`: the picture has no light yet, or a lit pixel in so few of its blocks that the halves
-/// hardly differ.
+/// The error that a curve stands for, relmse_scaled: against the reference, or the estimate. Nothing where the point
+/// has none, as of a black picture, and where it is below `least_told`: the halves do not differ but for rounding.
 enum class ErrorKind { estimate, reference };
 inline constexpr double least_told = 1e-9;
 std::optional<double> error_of(const RunPoint& point, ErrorKind kind);

@@ -29,7 +29,7 @@ TEST(ChartFit, MostCurvesThereCanBeFitIntoALargeWindow) {
     const auto shared = std::make_shared<const Scene>(scene);
     for (int samples = 2; samples < 1 << 20; samples += samples / 4 + 1) {
       const double error = (1 + 0.02 * static_cast<double>(i)) / samples;
-      state.chart.curves.add(shared, {samples, samples * 1e-3, error, Comparison{.relmse = 1.1 * error}});
+      state.chart.curves.add(shared, {samples, samples * 1e-3, error, Comparison{.relmse_scaled = 1.1 * error}});
     }
   }
   Edits edits;

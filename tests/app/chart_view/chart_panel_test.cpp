@@ -54,7 +54,7 @@ TEST_F(ChartPanel, ACurveForEverySettingTried) {
       EXPECT_GE(curve.points[i].seconds, curve.points[i - 1].seconds);
     }
   }
-  EXPECT_EQ(curves[3].points.back().estimate, window.state().frame->estimate.relmse);
+  EXPECT_EQ(curves[3].points.back().estimate, window.state().frame->estimate.relmse_scaled);
 
   Edits edits;
   edits.undo = true;
@@ -117,11 +117,12 @@ TEST_F(ChartPanel, MeasuresAgainstAReferenceFromAFile) {
   ASSERT_TRUE(window.draw_until([&] { return chart(window).reference_fits; })) << window.state().message.text;
   finish(window);
   const Image reference = read_image("reference.exr");
-  const auto measured = [&] { return chart(window).curves.current()->points.back().error.value().relmse; };
-  EXPECT_EQ(measured(), compare(window.state().frame->mean, reference).relmse) << "what is there is measured at once";
+  const auto measured = [&] { return chart(window).curves.current()->points.back().error.value().relmse_scaled; };
+  EXPECT_EQ(measured(), compare(window.state().frame->mean, reference).relmse_scaled)
+      << "what is there is measured at once";
   window.edit([](Scene& scene) { scene.render.shadow_rays = 4; });
   finish(window);
-  EXPECT_EQ(measured(), compare(window.state().frame->mean, reference).relmse);
+  EXPECT_EQ(measured(), compare(window.state().frame->mean, reference).relmse_scaled);
 
   window.edit([](Scene& scene) { scene.camera.fov_y += 5; });
   EXPECT_FALSE(chart(window).reference_fits);

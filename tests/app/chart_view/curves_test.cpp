@@ -61,7 +61,7 @@ TEST(Curves, EfficiencyIsARatioToTheBase) {
   EXPECT_FALSE(efficiency_ratio(better, base, 100));
 
   Curve compared = better;  // to the reference it is twice as far as it thinks; the base has no reference
-  for (RunPoint& point : compared.points) point.error = Comparison{.relmse = 2 * point.estimate};
+  for (RunPoint& point : compared.points) point.error = Comparison{.relmse_scaled = 2 * point.estimate};
   EXPECT_EQ(error_kind(compared), ErrorKind::reference);
   EXPECT_NEAR(efficiency_ratio(compared, base, std::nullopt).value(), 4, 1e-9) << "estimate against estimate";
   EXPECT_NEAR(efficiency_ratio(compared, compared, std::nullopt).value(), 1, 1e-9);
@@ -193,10 +193,10 @@ TEST(Curves, AreExported) {
   scene.render.shadow_rays = 4;
   scene.render.sampler = Sampler::sobol;
   RunPoint compared = on_power_law(1, 16);
-  compared.error = Comparison{.relmse = 0.5, .relmse999 = 0.25};
+  compared.error = Comparison{.relmse999 = 0.25, .relmse_scaled = 0.5};
   curves.add(share(scene), compared);
   EXPECT_EQ(curves_csv(curves.all()),
-            "method,seed,spp,seconds,relmse,relmse999,relmse_estimate\n"
+            "method,seed,spp,seconds,relmse_scaled,relmse999,relmse_scaled_estimate\n"
             "\"shadow rays 1, lattice\",1,8,0.008,,,125\n"
             "\"shadow rays 4, sobol\",1,16,0.016,0.5,0.25,62.5\n");
   const auto count = [&](const std::string& part) {

@@ -9,7 +9,7 @@ namespace {
 /// A line of the CSV; what is empty there is NaN.
 struct Row {
   int seed = 0, spp = 0;
-  double seconds = NAN, relmse = NAN, relmse999 = NAN, relmse_estimate = NAN;
+  double seconds = NAN, scaled = NAN, relmse999 = NAN, estimate = NAN;
 };
 
 using Rows = std::map<std::string, std::vector<Row>>;  ///< by method, in the file's order
@@ -20,7 +20,7 @@ class ChartCommand : public CommandLine {
     std::istringstream lines(read(name));
     std::string line;
     std::getline(lines, line);
-    EXPECT_EQ(line, "method,seed,spp,seconds,relmse,relmse999,relmse_estimate");
+    EXPECT_EQ(line, "method,seed,spp,seconds,relmse_scaled,relmse999,relmse_scaled_estimate");
     Rows rows;
     while (std::getline(lines, line)) {
       std::istringstream cells(line);
@@ -48,10 +48,10 @@ class ChartCommand : public CommandLine {
   }
 };
 
-/// relmse after so many samples.
+/// relmse_scaled after so many samples.
 double error_at(const std::vector<Row>& rows, int spp) {
   for (const Row& row : rows)
-    if (row.spp == spp) return row.relmse;
+    if (row.spp == spp) return row.scaled;
   ADD_FAILURE() << "no row for " << spp << " spp";
   return NAN;
 }
@@ -75,7 +75,7 @@ TEST_F(ChartCommand, ReportFlattensAtItsMissingCausticsAndOthersGoOn) {
   for (const auto& method : {std::string("naive"), std::string("path"), whole}) EXPECT_LT(fall(method), 0.3) << method;
   EXPECT_LT(error_at(rows.at("path"), 8192), error_at(rows.at("report"), 8192)) << "the curves cross";
   const Row& last = rows.at(independent).back();
-  EXPECT_LT(last.relmse_estimate, last.relmse / 4);
+  EXPECT_LT(last.estimate, last.scaled / 4);
 }
 
 TEST_F(ChartCommand, WritesEveryPointOfEverySeedAndVariant) {
@@ -90,14 +90,15 @@ TEST_F(ChartCommand, WritesEveryPointOfEverySeedAndVariant) {
       EXPECT_EQ(points[i].seed, i < 4 ? 5 : 6);
       EXPECT_EQ(points[i].spp, (std::vector<int>{1, 2, 4, 6})[i % 4]);
       EXPECT_GT(points[i].seconds, i % 4 == 0 ? 0 : points[i - 1].seconds) << "seconds add up";
-      EXPECT_TRUE(std::isnan(points[i].relmse)) << "there is no reference";
-      EXPECT_EQ(std::isnan(points[i].relmse_estimate), i % 4 == 0) << "one sample has one half";
+      EXPECT_TRUE(std::isnan(points[i].scaled)) << "there is no reference";
+      EXPECT_EQ(std::isnan(points[i].estimate), i % 4 == 0) << "one sample has one half";
     }
   }
   EXPECT_TRUE(rows.contains("path:sampler=sobol:shadow_rays=4"));
   const std::string svg = read("a.svg");
   EXPECT_TRUE(svg.starts_with("<svg xmlns=") && svg.ends_with("</svg>\n"));
-  for (const char* part : {"Hexagonal room", ">naive<", ">path, sampler sobol, shadow rays 4<", "seconds", "relmse"})
+  for (const char* part :
+       {"Hexagonal room", ">naive<", ">path, sampler sobol, shadow rays 4<", "seconds", "relmse_scaled"})
     EXPECT_TRUE(has(svg, part)) << part;
   for (const char* part : {"naive", "path, sampler sobol, shadow rays 4", "efficiency"})
     EXPECT_TRUE(has(result.out, part)) << part;
@@ -117,7 +118,7 @@ TEST_F(ChartCommand, ErrorsAreThoseOfTheRenderedPicture) {
   for (double value = 0; measures >> name >> value;) compared[name] = value;
   const Rows rows = read_rows("a.csv");
   const Row& last = rows.at("naive:sampler=sobol").back();
-  EXPECT_NEAR(last.relmse, compared.at("relmse"), 1e-6 * last.relmse);
+  EXPECT_NEAR(last.scaled, compared.at("relmse_scaled"), 1e-6 * last.scaled);
   EXPECT_NEAR(last.relmse999, compared.at("relmse999"), 1e-6 * last.relmse999);
 }
 

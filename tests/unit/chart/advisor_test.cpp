@@ -83,6 +83,16 @@ TEST(Advisor, TakesMediansAtTheLastSampleCountThatAllHave) {
   EXPECT_EQ(advice.high, 4);
 }
 
+// A black picture's error is unknown.
+TEST(Advisor, SaysWhereTooLittleLightWasFound) {
+  constexpr std::array rays{1, 4};
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  std::vector<Measurement> measurements{{0, 1, 2, 1, unknown}, {1, 1, 2, 1, 0.5}, {0, 1, 4, 2, unknown}};
+  EXPECT_THROW(shadow_ray_advice(rays, measurements), std::runtime_error);
+  measurements.insert(measurements.end(), {{1, 1, 4, 2, 0.25}, {0, 1, 8, 4, 1}, {1, 1, 8, 4, 0.125}});
+  EXPECT_EQ(shadow_ray_advice(rays, measurements).samples, 8);
+}
+
 TEST(Advisor, SaysWhereShadowRaysPlayNoPart) {
   const std::vector<std::string> naive{"image.width=8", "image.height=8", "render.method=naive"};
   EXPECT_THROW(advise_shadow_rays(read_scene(GLIMT_SCENES "/hexagon.toml", naive), {.seeds = 1, .spp = 2}, {}),

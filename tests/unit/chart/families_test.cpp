@@ -102,7 +102,7 @@ TEST_P(FamilyAlone, HasAllOfTheError) {
   double error = 0;
   for (int run = 0; run < 2; ++run) {
     whole.render.seed = scene.render.seed + 2 * run + (family < 2 ? 1 : 0);
-    error += relmse_estimate(render(compile(whole), 16)) / 2;
+    error += estimate_error(render(compile(whole), 16)).relmse_scaled / 2;
   }
   EXPECT_GT(error, 0);
   EXPECT_NEAR(found.all[family].error, error, 1e-5 * error);
@@ -123,7 +123,7 @@ TEST(Families, AddUpToTheEstimateOfOnePicture) {
     scene.render.caustics = shown;
     const Families found = measure_families(scene, {.seeds = 1, .spp = 5, .seconds = short_plan.seconds}, {});
     EXPECT_EQ(found.samples, 5);
-    const double estimate = relmse_estimate(render(compile(scene), 5));
+    const double estimate = estimate_error(render(compile(scene), 5)).relmse_scaled;
     EXPECT_NEAR(sum(found), estimate, 1e-5 * estimate);
     const std::size_t absent = shown == Caustics::off ? 0 : 2;
     EXPECT_EQ(found.all[absent].error + found.all[absent + 1].error, 0);
@@ -144,7 +144,7 @@ TEST(Families, AddUpToTheErrorOfTheWhole) {
     sums.push_back(sum(found));
     caustics.push_back(found.all[0].error);
     scene.render.seed += 50;
-    wholes.push_back(relmse_estimate(render(compile(scene), 16)));
+    wholes.push_back(estimate_error(render(compile(scene), 16)).relmse_scaled);
   }
   const Estimate a = estimate(sums), b = estimate(wholes);
   EXPECT_LT(std::abs(a.mean - b.mean), 5 * std::hypot(a.error, b.error)) << a.mean << " against " << b.mean;
