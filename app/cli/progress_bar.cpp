@@ -44,7 +44,8 @@ std::string bar_text(double fraction) {
 
 std::string progress_text(const Progress& progress) {
   char error[32] = "-";
-  if (std::isfinite(progress.relmse_scaled)) std::snprintf(error, sizeof error, "%.2e", progress.relmse_scaled);
+  if (std::isfinite(progress.relmse_scaled))
+    std::snprintf(error, sizeof error, "%s%.2e", progress.at_least ? "at least " : "", progress.relmse_scaled);
   char text[200];
   std::snprintf(text, sizeof text, "%s %d spp, %.1f Mpaths/s, error %s, ETA %s", bar_text(progress.fraction).c_str(),
                 progress.samples, progress.paths_per_second / 1e6, error, time_text(progress.seconds_left).c_str());

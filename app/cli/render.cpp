@@ -47,8 +47,10 @@ void print_summary(const RenderOptions& options, const Film& film, double second
   const double paths = static_cast<double>(film.width()) * film.height() * film.samples();
   std::FILE* const stream = options.out == "-" ? stderr : stdout;
   const std::string name = options.out == "-" ? "standard output" : options.out.string();
-  std::fprintf(stream, "%s: %d spp in %.2f s, %.1f Mpaths/s, %s\n", name.c_str(), film.samples(), seconds,
-               paths / seconds / 1e6, trust_text(estimate).c_str());
+  const std::string by_chance = estimate.is_bound() ? "" : light_by_chance(film);
+  std::fprintf(stream, "%s: %d spp in %.2f s, %.1f Mpaths/s, %s%s%s\n", name.c_str(), film.samples(), seconds,
+               paths / seconds / 1e6, trust_text(estimate).c_str(),
+               by_chance.empty() ? "" : "; found by chance: ", by_chance.c_str());
 }
 
 void warn_of_counters(const Film& film) {
@@ -123,7 +125,7 @@ int run_render(const RenderOptions& options) {
                  film.samples());
     return 128 + stop_signal;
   }
-  if (goal.relmse_scaled > 0 && film.samples() >= goal.samples.count && estimate.relmse_scaled > goal.relmse_scaled) {
+  if (goal.relmse_scaled > 0 && film.samples() >= goal.samples.count && estimate.at_most() > goal.relmse_scaled) {
     std::fprintf(stderr, "the error asked for is not reached with %d samples per pixel, the most there can be\n",
                  goal.samples.count);
     return 1;

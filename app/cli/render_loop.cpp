@@ -38,7 +38,8 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
   result.next_check = std::max(begun.next_check, first_check);
   film.go_on_from(goal.samples.first);
   const double pixels = static_cast<double>(film.width()) * film.height();
-  double estimate = std::numeric_limits<double>::infinity(), estimate_seconds = 0, estimated_at = 0;
+  ErrorEstimate estimate;
+  double estimate_seconds = 0, estimated_at = 0;
   const bool unlit = scene.max_radiance == 0;  // black is right at once
   int count = 0;                               // of the last pass
   double sample_seconds = 0;
@@ -48,21 +49,21 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
     const bool shown = after.report && goal.relmse_scaled == 0 && film.samples() >= 2 &&
                        result.seconds - estimated_at >= estimate_share * estimate_seconds;
     if (checked || shown) {
-      estimate_seconds = seconds_of([&] { estimate = estimate_error(film).relmse_scaled; });
+      estimate_seconds = seconds_of([&] { estimate = estimate_error(film); });
       estimated_at = result.seconds;
     }
-    const bool error_reached = checked && (estimate <= goal.relmse_scaled || unlit);
-    if (checked && !error_reached) result.next_check = next_check(film.samples(), estimate, goal.relmse_scaled);
+    const bool error_reached = checked && (estimate.at_most() <= goal.relmse_scaled || unlit);
+    if (checked && !error_reached) result.next_check = next_check(film.samples(), estimate.at_most(), goal.relmse_scaled);
     result.reached = film.samples() >= goal.samples.count || seconds_left <= sample_seconds / 2 || error_reached;
 
     if (after.report && count > 0) {
       const double samples = film.samples();
       double samples_needed = goal.samples.count;
-      if (goal.relmse_scaled > 0) samples_needed = std::max(samples, samples * estimate / goal.relmse_scaled);
+      if (goal.relmse_scaled > 0) samples_needed = std::max(samples, samples * estimate.at_most() / goal.relmse_scaled);
       const double left = std::min(seconds_left, (samples_needed - samples) * sample_seconds);
       const double total = result.seconds + left;
       after.report({result.reached ? 1.0 : result.seconds / total, film.samples(), result.seconds, std::max(left, 0.0),
-                    pixels * samples / result.seconds, estimate});
+                    pixels * samples / result.seconds, estimate.relmse_scaled, estimate.is_bound()});
     }
     if (result.reached || (stop && film.samples() > 0)) return result;
     if (count > 0 && after.save) after.save(result);

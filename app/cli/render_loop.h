@@ -12,7 +12,7 @@ namespace glimt {
 struct Goal {
   SampleRange samples;                                       ///< of each pixel
   double seconds = std::numeric_limits<double>::infinity();  ///< of rendering
-  double relmse_scaled = 0;                                  ///< at most this; looked at from 8 samples on
+  double relmse_scaled = 0;  ///< at most this, with what unseen light may add; looked at from 8 samples on
 };
 
 struct Progress {
@@ -22,6 +22,7 @@ struct Progress {
   double seconds_left = 0;
   double paths_per_second = 0;
   double relmse_scaled = 0;  ///< when last looked at; infinite before
+  bool at_least = false;     ///< the error may be larger: light may be missing
 };
 
 /// How far a film has come; what it takes to go on as if there had been no break.

@@ -77,7 +77,7 @@ void lower_room(Lowering& l) {
     const dvec3 front = face.front ? -face.inside.n : face.inside.n;
     const int surface = l.add_surface({&material, front});
     const std::vector<dvec3> outline = moved(face.outline, l.origin);
-    add_target(l, material, bounding_sphere(outline), surface, surface);
+    add_object(l, material, bounding_sphere(outline), surface, surface);
     if (face.front) add_flat_lamp(l, outline, front, material, surface, surface);
     return surface;
   };
@@ -113,7 +113,7 @@ void lower_polygon(Lowering& l, const Polygon& polygon) {
   const Material& material = l.material(polygon.material);
   const int surface = l.add_surface({&material, n});
   add_flat_lamp(l, v, n, material, surface, surface);
-  add_target(l, material, bounding_sphere(v), surface, surface);
+  add_object(l, material, bounding_sphere(v), surface, surface);
   const auto f = to_floats(n);
   const int first_bound = static_cast<int>(l.out.polygon_bounds.size());
   auto bound = [&](const dvec3& b, double lo, double hi) {
@@ -146,7 +146,7 @@ void lower_sphere(Lowering& l, const Sphere& sphere) {
   const bool around = l.reach.inside && length(*l.reach.inside - sphere.center) < sphere.radius;
   auto& list = glass ? l.out.glass_spheres : around ? l.out.shells : l.out.spheres;
   list.push_back({f[0], f[1], f[2], static_cast<float>(sphere.radius * sphere.radius), surface});
-  add_target(l, material, {c, sphere.radius}, surface, surface);
+  add_object(l, material, {c, sphere.radius}, surface, surface);
   if (glass || !around) l.facing_spheres.push_back({&sphere, surface});
   if (!around) add_sphere_lamp(l, c, sphere.radius, material, surface);
 }
@@ -176,19 +176,6 @@ void fill_surfaces(Lowering& l) {
   l.out.has_glass = (l.out.lobes & transmitting_lobes) != 0;
 }
 
-/// The families of light that no estimator but chance finds.
-void describe_chance(Lowering& l) {
-  CompiledScene& out = l.out;
-  const auto by_chance = [&](const std::string& light) { out.compiled_in.push_back("by chance alone: " + light); };
-  const Settings& s = out.settings;
-  if (out.lamps.rows() == 0) return;
-  if (s.light_sampling == LightSampling::none) by_chance("light straight from lamps to matt surfaces");
-  if (l.targets.empty() || s.caustics == Caustics::off) return;
-  if (out.light_paths == 0) by_chance("caustics on matt surfaces in view");
-  by_chance(std::string("caustics seen in mirrors and through glass") +
-            (out.chain_spheres.empty() ? "" : ", but for those over one sphere"));
-}
-
 /// What the kernel does and leaves out in this scene, in words.
 void describe(Lowering& l) {
   CompiledScene& out = l.out;
@@ -209,7 +196,6 @@ void describe(Lowering& l) {
   feature(out.has_glow, "glowing surfaces");
   if (out.cutaway) out.compiled_in.emplace_back("a cutaway, and so caustics by chance alone");
   if (!out.room.empty() && !out.room_hides_lamps) out.left_out.emplace_back("shadow tests against the room");
-  describe_chance(l);
 }
 
 }  // namespace
@@ -223,7 +209,7 @@ CompiledScene compile(const Scene& as_edited) {
   move_eye_off_surfaces(scene, warnings);
   Reach reach = find_reach(scene);
   if (separate_coincident(scene, reach, notes)) gather_objects(scene, reach);
-  Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}};
+  Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;
@@ -250,6 +236,7 @@ CompiledScene compile(const Scene& as_edited) {
   mark_lamp_edges(l);
   find_lamp_images(l);
   describe(l);
+  lower_chance(l);
   warn(l);
   return std::move(l.out);
 }

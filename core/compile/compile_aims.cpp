@@ -24,9 +24,11 @@ BoundingSphere bounding_sphere(const std::vector<dvec3>& vertices) {
   return {center, radius};
 }
 
-void add_target(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
+void add_object(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
                 int last_surface) {
   if (is_specular(material)) l.targets.push_back({bounds, first_surface, last_surface});
+  const dvec3 radiance = material_info(material.type).radiance(material);
+  if (radiance != dvec3{0}) l.emitting.push_back({radiance, first_surface, last_surface});
 }
 
 namespace {

@@ -100,7 +100,7 @@ void lower_meshes(Lowering& l) {
     const int last_surface = static_cast<int>(l.surfaces.size()) - 1;
     std::vector<dvec3> vertices = mesh.vertices;
     for (dvec3& v : vertices) v -= l.origin;
-    add_target(l, material, bounding_sphere(vertices), first_surface, last_surface);
+    add_object(l, material, bounding_sphere(vertices), first_surface, last_surface);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       std::vector<dvec3> v = triangle_vertices(mesh, mesh.triangles[i]);
       const dvec3 n = plane_of(v).n;

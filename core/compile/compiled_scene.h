@@ -35,6 +35,7 @@ enum class Column {
   lamp,        ///< first row of the lamp table that is a piece of this light, as int32; -1: none is
   chain,       ///< of a sphere that connections pass over, as int32: 1 by reflection, 2 by refraction too; else 0
   target,      ///< number of the mirror or glass that light paths may be aimed at, as int32; -1: none
+  emitter,     ///< of a surface that emits, its row in CompiledScene::emitters, as int32; -1: not watched
   count
 };
 
@@ -122,6 +123,22 @@ struct LampImage {
   double x0, y0, x1, y1;
 };
 
+/// How a path comes from the camera to an emitter. What a technique samples is not left to chance; the rest is.
+enum class ChanceWay {
+  straight,          ///< at once
+  mirrored,          ///< by way of smooth mirrors and glass alone
+  lit,               ///< the first surface was matt or glossy
+  lit_and_mirrored,  ///< the first surface was a smooth mirror or glass, and a later one matt or glossy
+  count
+};
+inline constexpr auto chance_ways = static_cast<std::size_t>(ChanceWay::count);
+
+/// A lamp, or an object that glows, some of whose light is left to chance; see film/unseen.h.
+struct Emitter {
+  double radiance = 0;                            ///< mean of its channels, W/(m^2 sr)
+  std::array<bool, chance_ways> by_chance_alone{};  ///< by way
+};
+
 struct CompiledScene {
   Settings settings;
   int width = 0, height = 0;
@@ -147,6 +164,7 @@ struct CompiledScene {
   std::vector<int> lamp_edges;  ///< pixels that edges of lamps come near, in order; see kernel/lamps/lamp_edges.h
   std::vector<LampImage> lamp_images;  ///< disjoint
   std::vector<ChainSphere> chain_spheres;
+  std::vector<Emitter> emitters;  ///< those of which something is left to chance
   std::uint32_t lobes = 0;        ///< that some surface has; a LobeSet of material/lobes.h
   bool has_glass = false;         ///< light goes on behind some surface
   bool has_glow = false;          ///< reflecting surfaces with emission

@@ -173,22 +173,30 @@ void find_lamp_images(Lowering& l) {
   std::vector<LampImage>& images = l.out.lamp_images;
   std::size_t lamps = 0, tests = 0;
   const std::size_t tests_each = shapes_in(l.scene) * most_surfaces * most_steps * 3;
-  for (const LampPiece& lamp : l.lamps) {
+  for (LampPiece& lamp : l.lamps) {
     const LampBody body = body_of(lamp.shape);
     const dvec3 center = body.middle() + l.origin;
     double radius = body.radius;
     for (const dvec3& v : body.outline) radius = std::max(radius, length(v - body.middle()));
     const double distance = length(center - search.view().eye);
     if (radius > small_lamp * distance * search.view().pixel || ++lamps > most_lamps) continue;
+    lamp.looked_for = true;
     for (const dvec3& look : first_looks(l, center)) {
       const auto place = search.view().project(look);
-      if (!place || (tests += tests_each) > most_tests + tests_each) continue;
+      if (!place) continue;
+      if ((tests += tests_each) > most_tests + tests_each) {
+        lamp.looked_for = false;
+        break;
+      }
       const auto image = search.image(*place, center, radius);
       if (image && image->x1 > 0 && image->y1 > 0 && image->x0 < l.out.width && image->y0 < l.out.height)
         add_image(images, *image);
     }
   }
-  if (images.size() > most_images) images.resize(most_images);
+  if (images.size() > most_images) {
+    images.resize(most_images);
+    for (LampPiece& lamp : l.lamps) lamp.looked_for = false;
+  }
   if (!images.empty())
     l.out.compiled_in.push_back(std::to_string(images.size()) + (images.size() == 1 ? " place" : " places") +
                                 " in the image where small lamps are seen, looked at with more rays");

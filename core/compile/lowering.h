@@ -21,6 +21,7 @@ struct LampPiece {
   LampShape shape;
   glm::dvec3 radiance;
   int first_surface, last_surface;
+  bool looked_for = false;  ///< where it is seen in the image is known; see find_lamp_images()
 };
 
 /// A ball around something, in compiled space.
@@ -32,6 +33,12 @@ struct BoundingSphere {
 /// A mirror or glass that light paths may be aimed at.
 struct Target {
   BoundingSphere bounds;
+  int first_surface, last_surface;
+};
+
+/// The surfaces of an object that is a lamp or glows.
+struct Emitting {
+  glm::dvec3 radiance;
   int first_surface, last_surface;
 };
 
@@ -48,6 +55,7 @@ struct Lowering {
   std::vector<Surface> surfaces;
   std::vector<LampPiece> lamps;
   std::vector<Target> targets;
+  std::vector<Emitting> emitting;
   std::vector<FacingSphere> facing_spheres;
   CompiledScene out;
 
@@ -90,8 +98,8 @@ struct AliasEntry {
 std::vector<AliasEntry> alias_table(const std::vector<double>& probability);
 
 BoundingSphere bounding_sphere(const std::vector<glm::dvec3>& vertices);
-/// Does nothing for a material that is not specular.
-void add_target(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
+/// Notes an object for light paths if it is specular, and for lower_chance() if it emits.
+void add_object(Lowering& l, const Material& material, const BoundingSphere& bounds, int first_surface,
                 int last_surface);
 /// The table that light paths begin from, and how many there are; after lower_lamps().
 void lower_aims(Lowering& l);
@@ -104,6 +112,9 @@ void mark_lamp_edges(Lowering& l);
 
 /// Where in the image small lamps are seen.
 void find_lamp_images(Lowering& l);
+
+/// Which light is left to chance, also in words; after all techniques have been lowered.
+void lower_chance(Lowering& l);
 
 /// Warnings for scenes in which the chosen estimators cannot hold.
 void warn(Lowering& l);

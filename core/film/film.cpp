@@ -43,7 +43,8 @@ double reciprocal(int n) { return n > 0 ? 1.0 / n : 0.0; }
 
 }  // namespace
 
-Film::Film(int width, int height, double max_radiance) : width_(width), height_(height) {
+Film::Film(int width, int height, double max_radiance, std::vector<Emitter> emitters)
+    : width_(width), height_(height), emitters_(std::move(emitters)), by_chance_(chance_counters(emitters_.size())) {
   // Within the range of float, with room for the fixed point on either side.
   const double brightest =
       max_radiance > 0 && std::isfinite(max_radiance) ? std::clamp(max_radiance, 1e-30, 1e30) : 1.0;
@@ -120,6 +121,12 @@ void Film::add(const Film& other) {
   for (const SampleRange& range : other.ranges_) add_range(ranges_, range);
   invalid_ += other.invalid_;
   saturated_ += other.saturated_;
+  add_by_chance(other.by_chance_);
+}
+
+void Film::add_by_chance(std::span<const std::uint64_t> counters) {
+  for (std::size_t i = 0; i < counters.size(); ++i)
+    if (counters[i] != 0) std::atomic_ref(by_chance_[i]).fetch_add(counters[i], std::memory_order_relaxed);
 }
 
 Image Film::mean() const {

@@ -29,8 +29,8 @@ class Film {
   Film() = default;
 
   /// `max_radiance` is the brightest emission in the scene; a unit of the fixed point is 2^-38 of it (rounded to a
-  /// power of two), which leaves room for 2^25 samples of that brightness a pixel and half.
-  Film(int width, int height, double max_radiance);
+  /// power of two), which leaves room for 2^25 samples of that brightness a pixel and half. `emitters`: of the scene.
+  Film(int width, int height, double max_radiance, std::vector<Emitter> emitters = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -56,6 +56,12 @@ class Film {
 
   /// Adds all samples of another film. Throws std::invalid_argument where both have a sample, or sums of other units.
   void add(const Film& other);
+
+  /// Adds to the counters that trace() has for the emitters, from any thread.
+  void add_by_chance(std::span<const std::uint64_t> counters);
+  const std::vector<Emitter>& emitters() const { return emitters_; }
+  /// See chance_counters().
+  std::span<const std::uint64_t> by_chance() const { return by_chance_; }
 
   /// Counters that are 0 in a sound render.
   std::uint64_t invalid() const { return invalid_; }
@@ -112,6 +118,8 @@ class Film {
   std::uint32_t limit_bits_ = 0;  ///< of the smallest float that does not fit into a sum
   std::uint64_t invalid_ = 0;
   std::uint64_t saturated_ = 0;
+  std::vector<Emitter> emitters_;
+  std::vector<std::uint64_t> by_chance_;
   std::array<std::vector<std::uint64_t, ZeroedMemory<std::uint64_t>>, 2>
       sums_;  ///< by half; three a pixel, units of 1/scale_, below 2^63
 };

@@ -167,9 +167,11 @@ ErrorEstimate estimate_error(const Film& film) {
   }
   const double per_value = (n0 * n1 / (n * n)) / (3.0 * film.width() * film.height());
   ErrorEstimate result{.relmse = all.relmse * per_value, .relmse_scaled = all.scaled * per_value};
+  Unseen unseen = unseen_light(film, picture_mean);
   if (!(picture_mean > 0)) {
     // A black picture tells nothing: its light may not have been found yet.
     result.relmse_scaled = std::numeric_limits<double>::infinity();
+    result.unseen = std::move(unseen);
     return result;
   }
   result.low = result.high = result.relmse_scaled;
@@ -179,13 +181,18 @@ ErrorEstimate estimate_error(const Film& film) {
     result.low /= spread;
     result.high *= spread;
   }
+  if (unseen.relmse > std::min(result.high, 2 * result.relmse_scaled) - result.relmse_scaled)
+    result.unseen = std::move(unseen);
   return result;
 }
 
 std::string trust_text(const ErrorEstimate& estimate) {
   if (!std::isfinite(estimate.relmse_scaled)) return "error unknown";
-  std::array<char, 128> text{};
-  if (std::isfinite(estimate.high))
+  std::array<char, 256> text{};
+  if (estimate.is_bound())
+    std::snprintf(text.data(), text.size(), "error at least %.3g: up to %.2g %% of the light may be missing (%s)",
+                  estimate.relmse_scaled, 100 * estimate.unseen.flux, estimate.unseen.light.c_str());
+  else if (std::isfinite(estimate.high))
     std::snprintf(text.data(), text.size(), "error %.3g (%.2g to %.2g in 95 of 100)", estimate.relmse_scaled,
                   estimate.low, estimate.high);
   else

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "film/film.h"
+#include "film/unseen.h"
 
 namespace glimt {
 
@@ -41,10 +42,17 @@ struct ErrorEstimate {
   double relmse_scaled = std::numeric_limits<double>::infinity();  ///< the same with scaled_dark(mean of the film)
   double low = 0;                                         ///< with `high`, what holds the true relmse_scaled in 95 %
   double high = std::numeric_limits<double>::infinity();  ///< infinite where a few pixels have all of the error
+  Unseen unseen{};  ///< light that chance may not have found yet; empty where it would not show outside `low` to `high`
+
+  /// relmse_scaled says only how large the error is at least.
+  bool is_bound() const { return unseen.flux > 0; }
+  /// The relmse_scaled to rely on: with what the unseen light may add.
+  double at_most() const { return relmse_scaled + unseen.relmse; }
 };
 ErrorEstimate estimate_error(const Film& film);
 
-/// How far to trust the film, in words: "error 0.0012 (0.0011 to 0.0013 in 95 of 100)".
+/// How far to trust the film, in words: "error 0.0012 (0.0011 to 0.0013 in 95 of 100)", or "error at least 0.0012: up
+/// to 40 % of the light may be missing (caustics in mirrors and glass)".
 std::string trust_text(const ErrorEstimate& estimate);
 
 }  // namespace glimt

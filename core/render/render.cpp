@@ -37,7 +37,9 @@ void add_to_film(Film& film, const PathBlock& block, const float* rgb) {
 
 int hardware_threads() { return omp_get_num_procs(); }
 
-Film make_film(const CompiledScene& scene) { return Film(scene.width, scene.height, scene.max_radiance); }
+Film make_film(const CompiledScene& scene) {
+  return Film(scene.width, scene.height, scene.max_radiance, scene.emitters);
+}
 
 bool render_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution,
                  const std::atomic<bool>* cancel, PassProgress* progress) {
@@ -72,6 +74,7 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
 #pragma omp parallel num_threads(threads)
   {
     std::vector<float> rgb;
+    std::vector<std::uint64_t> by_chance;
     std::vector<Splat> splats;
 #pragma omp for schedule(dynamic)
     for (std::ptrdiff_t i = 0; i < tile_count; ++i) {
@@ -80,8 +83,10 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
         PathBlock block = tiles[static_cast<std::size_t>(i)];
         block.first_sample = sample_number(first);
         block.samples = std::min(block_paths / (block.width * block.height), count - first);
-        trace(scene, block, execution.lanes, rgb.data());
+        by_chance.assign(film.by_chance().size(), 0);
+        trace(scene, block, execution.lanes, rgb.data(), by_chance);
         add_to_film(film, block, rgb.data());
+        film.add_by_chance(by_chance);
         return block.samples;
       });
     }

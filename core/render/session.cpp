@@ -38,7 +38,7 @@ int target_samples(const Settings& settings, const Accumulation& accumulation) {
   if (settings.target_error == 0) return settings.spp;
   const int samples = accumulation.film.samples();
   if (samples < first_estimate) return first_estimate;
-  const double share = accumulation.estimate.relmse_scaled / settings.target_error;
+  const double share = accumulation.estimate.at_most() / settings.target_error;
   return share <= 1 ? samples : static_cast<int>(std::clamp(std::ceil(samples * share), samples + 1.0, 1.0 * max_spp));
 }
 

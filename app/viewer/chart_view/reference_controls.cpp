@@ -8,8 +8,8 @@ namespace glimt {
 namespace {
 
 std::string error_text(const Frame& frame) {
-  return std::isfinite(frame.estimate.relmse_scaled) ? "relMSE " + short_number(frame.estimate.relmse_scaled)
-                                                     : "error unknown";
+  if (!std::isfinite(frame.estimate.relmse_scaled)) return "error unknown";
+  return (frame.estimate.is_bound() ? "relMSE at least " : "relMSE ") + short_number(frame.estimate.relmse_scaled);
 }
 
 std::string what_it_is(const ChartState& chart) {

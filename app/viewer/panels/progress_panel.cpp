@@ -34,11 +34,18 @@ std::string duration(double seconds) {
 
 constexpr const char* dash = "\u2013";
 
+/// Why the error is only a bound; empty where it is not.
+std::string unseen_text(const Unseen& unseen) {
+  if (unseen.light.empty()) return {};
+  return number("\n\nUp to %.2g %% of the light may be missing.", 100 * unseen.flux) +
+         " Chance alone finds it, and has found too little so far: " + unseen.light + ".";
+}
+
 /// Of the way to the target, 0..1; the error falls as 1 / samples.
 double share_done(const Settings& settings, const Frame& frame) {
   if (frame.finished) return 1;
   if (settings.target_error == 0) return std::min(1.0, static_cast<double>(frame.samples) / settings.spp);
-  return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.estimate.relmse_scaled) : 0;
+  return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.estimate.at_most()) : 0;
 }
 
 /// The error of the picture so far against time, both logarithmic, in what is left of the row. An error that falls as
@@ -148,10 +155,11 @@ void draw_progress_panel(const ViewerState& state, Edits& edits) {
   const std::string aim = by_error ? number(" of %.2g relMSE", settings.target_error) : " relMSE";
   text_row("Estimated error",
            std::isfinite(frame.estimate.relmse_scaled) && frame.samples > 1
-               ? number("%.3g", frame.estimate.relmse_scaled) + aim
+               ? (frame.estimate.is_bound() ? "at least " : "") + number("%.3g", frame.estimate.relmse_scaled) + aim
                : dash,
            "Mean squared relative error of the picture, estimated from two independent halves of its samples. It falls "
-           "as 1 / samples.");
+           "as 1 / samples." +
+               unseen_text(frame.estimate.unseen));
   draw_trend(state, frame, ends, share);
   text_row("Speed", number("%.1f Mpaths/s", frame.paths_per_second / 1e6),
            "Millions of paths from the camera in a second.");

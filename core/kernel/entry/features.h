@@ -67,7 +67,7 @@ void with_features(const CompiledScene& scene, Function f) {
       !scene.triangles.empty() || !scene.shells.empty() || scene.room_hides_lamps || glass_solid || scene.cutaway;
   const bool one = scene.lamps.rows() == 1 && scene.has_lamp<ParallelogramLamp>();
   const bool caustics = scene.light_paths > 0 || !scene.chain_spheres.empty() || !scene.lamp_images.empty() ||
-                        !has_defaults(s, caustic_settings);
+                        !scene.emitters.empty() || !has_defaults(s, caustic_settings);
   const bool usual =
       !rare_shapes && one && !scene.has_glow && has_defaults(s, usual_settings) && scene.surfaces.rows() <= small_table;
   const auto lacks = [&](LobeSet lobes) { return (scene.lobes & lobes) == 0; };

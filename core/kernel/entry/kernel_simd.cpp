@@ -3,7 +3,7 @@
 
 namespace glimt {
 
-template void trace_block<KernelLanes>(const CompiledScene&, const PathBlock&, float*);
+template void trace_block<KernelLanes>(const CompiledScene&, const PathBlock&, float*, std::span<std::uint64_t>);
 template void trace_light_block<KernelLanes>(const CompiledScene&, const LightBlock&, std::vector<Splat>&);
 template Rgb trace_given_ray<KernelLanes>(const CompiledScene&, const GivenPath&);
 

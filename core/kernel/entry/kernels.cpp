@@ -6,11 +6,12 @@ namespace glimt {
 
 int native_lane_count() { return lane_count<KernelLanes>; }
 
-void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, float* rgb) {
+void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, float* rgb,
+           std::span<std::uint64_t> by_chance) {
   if (lanes == Lanes::scalar) {
-    trace_block<float>(scene, block, rgb);
+    trace_block<float>(scene, block, rgb, by_chance);
   } else {
-    trace_block<KernelLanes>(scene, block, rgb);
+    trace_block<KernelLanes>(scene, block, rgb, by_chance);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compile/compiled_scene.h"
@@ -24,10 +25,18 @@ struct PathBlock {
   int paths() const { return width * height * samples; }
 };
 
+/// Counters for what is left to chance in a scene with so many emitters: for each and each ChanceWay the throughputs of
+/// the paths that met it, in units of 1 / chance_unit; last, how many camera paths have met a smooth mirror or glass
+/// first.
+constexpr std::size_t chance_counters(std::size_t emitters) { return emitters == 0 ? 0 : emitters * chance_ways + 1; }
+inline constexpr float chance_unit = 0x1p16f;
+
 /// Radiance of every path of the block, into rgb[3 * paths()]: sample by sample, in each row by row. A path's value is
 /// a pure function of (scene, seed, pixel, sample): the same for every block it is in and every lane width. With path
-/// sharing the other paths of its square are traced for it, wherever the block ends.
-void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, float* rgb);
+/// sharing the other paths of its square are traced for it, wherever the block ends. `by_chance` is empty or has the
+/// scene's chance_counters(); to them is added how often the paths have found light that is left to chance.
+void trace(const CompiledScene& scene, const PathBlock& block, Lanes lanes, float* rgb,
+           std::span<std::uint64_t> by_chance = {});
 
 /// Some of the light paths of one pass: those that belong to one sample of every pixel.
 struct LightBlock {

@@ -9,6 +9,7 @@
 #include "kernel/geometry/pinhole.h"
 #include "kernel/lamps/lamp_edges.h"
 #include "kernel/sharing/tail_sharing.h"
+#include "kernel/transport/chance_hits.h"
 #include "kernel/transport/lamp_weight.h"
 #include "kernel/transport/results.h"
 #include "kernel/transport/trace.h"
@@ -25,7 +26,9 @@ class PathTracer {
 
  public:
   /// `light_traced`: the paths are the camera's, and light paths do their part. `sharing`: null where there is none.
-  PathTracer(const CompiledScene& scene, PathSums<F>& sums, bool light_traced, TailSharing<F, features>* sharing)
+  /// `by_chance`: counters for ChanceHits, or nothing.
+  PathTracer(const CompiledScene& scene, PathSums<F>& sums, bool light_traced, TailSharing<F, features>* sharing,
+             std::span<std::uint64_t> by_chance)
       : scene_(scene),
         surfaces_(scene),
         lamps_(scene, surfaces_),
@@ -35,7 +38,8 @@ class PathTracer {
         hit_block_(hit_dimensions(set<&Settings::shadow_rays>())),
         over_roulette_below_(static_cast<float>(1 / set<&Settings::roulette_below>())),
         connects_(!scene.chain_spheres.empty()),
-        connector_(scene) {}
+        connector_(scene),
+        chance_hits_(by_chance) {}
 
   /// Traces all paths of the source and adds up what each one gathers.
   void run(PathSource<F>& source) {
@@ -89,6 +93,7 @@ class PathTracer {
     if (features.caustics) s.lamps.specular = select(idle, share, s.lamps.specular);
     if (lamps_.shares()) s.lamps.pdf_w = select(idle, F(0.0f), s.lamps.pdf_w);
     s.depth = select(idle, I(0), s.depth);
+    if (counts_chance()) s.way = select(idle, I(static_cast<std::int32_t>(ChanceWay::straight)), s.way);
     if (sharing_) s.first.class_and_side = select(idle, I(FirstMatt<F>::none), s.first.class_and_side);
     if (connects()) {
       s.chain.found.stage = select(idle, I(chain_none), s.chain.found.stage);
@@ -110,6 +115,7 @@ class PathTracer {
     // The tail that the path's square shares begins here, where this is the second surface.
     const M matt = surfaces_.is_matt(at) & !missed;
     const M glossy = surfaces_.has_glossy() ? surfaces_.is_glossy(at) & !missed : no_lanes<F>();
+    if (counts_chance()) note_way(s, matt | glossy, ended);
     if (sharing_) begin_tails(s, at, matt);
     if (looks_apart_) s.lamps.specular = select(matt | glossy, abs(s.lamps.specular), s.lamps.specular);
 
@@ -155,10 +161,22 @@ class PathTracer {
     if (features.glow && scene_.has_glow && set<&Settings::caustics>() != Caustics::only) shines = shines | !lamp;
     shines = shines & !missed;
     if ((!features.small_table || lamps_.shares()) && !any(shines)) return;
+    if (counts_chance() && any(shines))
+      chance_hits_.meet(as_int(surfaces_.value(Column::emitter, at)), s.way, max_component(s.throughput),
+                        shines & s.place.is_busy());
     V emission = select(shines, surfaces_.vector(Column::emission_r, at), V::all(F(0.0f)));
     if (lamps_.shares() || light_traced() || connects())
       emission = emission * lamp_weight(scene_, surfaces_, lamps_, s, at, t, shines & lamp, light_traced(), connects());
     add_radiance(s, emission, shines & lamp, s.lamps.next);
+  }
+
+  /// How the path has come this far, where it did not end; `scatters`: at matt and glossy surfaces.
+  void note_way(PathState<F>& s, const M& scatters, const M& ended) {
+    static_assert(static_cast<int>(ChanceWay::mirrored) == 1 && static_cast<int>(ChanceWay::lit) == 2 &&
+                  static_cast<int>(ChanceWay::lit_and_mirrored) == 3);
+    const M mirrored = equal(s.depth, I(0)) & !scatters & !ended & s.place.is_busy();
+    if (any(mirrored)) chance_hits_.begin_mirrored(mirrored);
+    s.way = select(scatters, s.way | I(2), select(mirrored, I(1), s.way));
   }
 
   /// Light from the lamps that surfaces send on, by shadow rays.
@@ -275,6 +293,7 @@ class PathTracer {
 
   bool light_traced() const { return features.caustics && light_traced_; }
   bool connects() const { return features.caustics && connects_; }
+  bool counts_chance() const { return features.caustics && chance_hits_.on(); }
   /// The value of a setting.
   template <auto member>
   auto set() const {
@@ -294,11 +313,12 @@ class PathTracer {
   bool connects_;
   bool looks_apart_ = false;  ///< small lamps that the camera sees are counted by LampImages
   Connector<F, features> connector_;
+  ChanceHits<F> chance_hits_;
   Results<F> done_;
 };
 
 template <class F>
-void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb) {
+void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb, std::span<std::uint64_t> by_chance) {
   const Squares<F> squares(block);
   const int places = Squares<F>::members * squares.plane;
   // Fresh memory for every block would cost a tenth of the time.
@@ -312,7 +332,7 @@ void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb)
       table.begin(places);
       sharing.emplace(scene, table);
     }
-    PathTracer<F, features()>(scene, sums, scene.light_paths > 0, sharing ? &*sharing : nullptr).run(rays);
+    PathTracer<F, features()>(scene, sums, scene.light_paths > 0, sharing ? &*sharing : nullptr, by_chance).run(rays);
     if (sharing) sharing->share(squares, sums);
     if (!scene.lamp_edges.empty()) LampEdges<F, features()>(scene, squares).refine(sums);
     if (!scene.lamp_images.empty()) LampImages<F, features()>(scene, squares).add(sums);
@@ -330,7 +350,7 @@ Rgb trace_given_ray(const CompiledScene& scene, const GivenPath& path) {
   GivenRay<F> ray(scene, path);
   PathSums<F> sums;
   sums.begin(1);
-  with_features(scene, [&](auto features) { PathTracer<F, features()>(scene, sums, false, nullptr).run(ray); });
+  with_features(scene, [&](auto features) { PathTracer<F, features()>(scene, sums, false, nullptr, {}).run(ray); });
   return {sums.channel(0)[0], sums.channel(1)[0], sums.channel(2)[0]};
 }
 

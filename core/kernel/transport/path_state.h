@@ -52,6 +52,7 @@ struct PathState {
   F ior2;              ///< square of the refractive index here over that at the camera; 1 without glass
   PathKey<F> key;      ///< its dimension 0 is the first of the next hit
   Int<F> depth;        ///< surfaces hit before
+  Int<F> way;          ///< a ChanceWay, where that is counted
   PathPlace<F> place;
   LampShares<F> lamps;
   ChainState<F> chain;

@@ -8,7 +8,7 @@
 namespace glimt {
 
 template <class F>
-void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb);
+void trace_block(const CompiledScene& scene, const PathBlock& block, float* rgb, std::span<std::uint64_t> by_chance);
 
 template <class F>
 void trace_light_block(const CompiledScene& scene, const LightBlock& block, std::vector<Splat>& splats);
@@ -16,8 +16,8 @@ void trace_light_block(const CompiledScene& scene, const LightBlock& block, std:
 template <class F>
 Rgb trace_given_ray(const CompiledScene& scene, const GivenPath& path);
 
-extern template void trace_block<float>(const CompiledScene&, const PathBlock&, float*);
-extern template void trace_block<KernelLanes>(const CompiledScene&, const PathBlock&, float*);
+extern template void trace_block<float>(const CompiledScene&, const PathBlock&, float*, std::span<std::uint64_t>);
+extern template void trace_block<KernelLanes>(const CompiledScene&, const PathBlock&, float*, std::span<std::uint64_t>);
 extern template void trace_light_block<float>(const CompiledScene&, const LightBlock&, std::vector<Splat>&);
 extern template void trace_light_block<KernelLanes>(const CompiledScene&, const LightBlock&, std::vector<Splat>&);
 extern template Rgb trace_given_ray<float>(const CompiledScene&, const GivenPath&);
