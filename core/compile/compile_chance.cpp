@@ -53,6 +53,8 @@ void lower_chance(Lowering& l) {
   const CameraView view(l.scene.camera, l.scene.image);
   const bool smooth = (out.lobes & lobes_of(LobeClass::delta)) != 0;
   const bool caustics = !l.targets.empty() && settings.caustics != Caustics::off;
+  // Connections find every way over the only mirror, if that is a ball.
+  const bool connected = l.targets.size() == 1 && out.chain_spheres.size() == 1 && !out.chain_spheres[0].glass;
   std::vector<std::int32_t> row_of(static_cast<std::size_t>(out.surfaces.rows()), -1);
   for (const Emitting& object : l.emitting) {
     const auto is_its_own = [&](const LampPiece& piece) {
@@ -72,7 +74,7 @@ void lower_chance(Lowering& l) {
     left(ChanceWay::straight) = thin;
     left(ChanceWay::mirrored) = goes_on && smooth && !looked_for;
     left(ChanceWay::lit) = goes_on && (!sampled || (caustics && out.light_paths == 0));
-    left(ChanceWay::lit_and_mirrored) = goes_on && smooth && (!sampled || caustics);
+    left(ChanceWay::lit_and_mirrored) = goes_on && smooth && (!sampled || (caustics && !connected));
     if (std::ranges::none_of(emitter.by_chance_alone, std::identity{})) continue;
     if (out.emitters.size() < most_emitters) {
       out.emitters.push_back(emitter);
