@@ -68,21 +68,19 @@ void lower_chance(Lowering& l) {
       thin = !looked_for && looks_thin(l, view, piece);
       if (!looked_for) break;
     }
-    Emitter emitter{(object.radiance.r + object.radiance.g + object.radiance.b) / 3, {}};
-    const auto left = [&](ChanceWay way) -> bool& { return emitter.by_chance_alone[static_cast<std::size_t>(way)]; };
     const bool goes_on = settings.max_depth != 1;
-    left(ChanceWay::straight) = thin;
-    left(ChanceWay::mirrored) = goes_on && smooth && !looked_for;
-    left(ChanceWay::lit) = goes_on && (!sampled || (caustics && out.light_paths == 0));
-    left(ChanceWay::lit_and_mirrored) = goes_on && smooth && (!sampled || (caustics && !connected));
-    if (std::ranges::none_of(emitter.by_chance_alone, std::identity{})) continue;
+    Emitter emitter{(object.radiance.r + object.radiance.g + object.radiance.b) / 3};
+    emitter.leave(ChanceWay::straight, thin);
+    emitter.leave(ChanceWay::mirrored, goes_on && smooth && !looked_for);
+    emitter.leave(ChanceWay::lit, goes_on && (!sampled || (caustics && out.light_paths == 0)));
+    emitter.leave(ChanceWay::lit_and_mirrored, goes_on && smooth && (!sampled || (caustics && !connected)));
+    if (emitter.ways == 0) continue;
     if (out.emitters.size() < most_emitters) {
       out.emitters.push_back(emitter);
     } else {
       Emitter& last = out.emitters.back();
       last.radiance = std::max(last.radiance, emitter.radiance);
-      for (std::size_t k = 0; k < chance_ways; ++k)
-        last.by_chance_alone[k] = last.by_chance_alone[k] || emitter.by_chance_alone[k];
+      last.ways |= emitter.ways;
     }
     for (int s = object.first_surface; s <= object.last_surface; ++s)
       row_of[static_cast<std::size_t>(s)] = static_cast<std::int32_t>(out.emitters.size()) - 1;

@@ -135,8 +135,11 @@ inline constexpr auto chance_ways = static_cast<std::size_t>(ChanceWay::count);
 
 /// A lamp, or an object that glows, some of whose light is left to chance; see film/unseen.h.
 struct Emitter {
-  double radiance = 0;                            ///< mean of its channels, W/(m^2 sr)
-  std::array<bool, chance_ways> by_chance_alone{};  ///< by way
+  double radiance = 0;  ///< mean of its channels, W/(m^2 sr)
+  std::uint64_t ways = 0;  ///< those left to chance: bit k is ChanceWay k
+
+  bool is_left(std::size_t way) const { return (ways >> way & 1) != 0; }
+  void leave(ChanceWay way, bool left) { ways |= std::uint64_t{left} << static_cast<int>(way); }
 };
 
 struct CompiledScene {

@@ -36,8 +36,9 @@ struct CheckpointStart {
   double scale = 0;
   std::uint64_t invalid = 0, saturated = 0;
   std::int64_t nanoseconds = 0;
+  std::uint32_t emitters = 0, unused = 0;
 };
-static_assert(sizeof(CheckpointStart) == 64);
+static_assert(sizeof(CheckpointStart) == 72);
 constexpr std::size_t checked_from = offsetof(CheckpointStart, version_length);
 
 template <class T>
@@ -57,7 +58,8 @@ std::uint32_t add_to_checksum(std::uint32_t sum, std::string_view bytes) {
 std::uint64_t size_of_file(const CheckpointStart& start) {
   const std::uint64_t pixels = static_cast<std::uint64_t>(start.width) * static_cast<std::uint64_t>(start.height);
   return checkpoint_signature.size() + sizeof start + start.version_length + start.scene_length +
-         sizeof(SampleRange) * std::uint64_t{start.range_count} + Film::pixel_bytes * pixels;
+         sizeof(SampleRange) * std::uint64_t{start.range_count} + sizeof(Emitter) * std::uint64_t{start.emitters} +
+         sizeof(std::uint64_t) * chance_counters(start.emitters) + Film::pixel_bytes * pixels;
 }
 
 bool in_image_limits(int width, int height) {
@@ -95,8 +97,13 @@ class CheckpointReader {
     take(std::span(version));
     take(std::span(scene));
     take(std::span(ranges));
+    std::vector<Emitter> emitters(start.emitters);
+    std::vector<std::uint64_t> by_chance(chance_counters(start.emitters));
+    take(std::span(emitters));
+    take(std::span(by_chance));
     Checkpoint result;
-    result.film = Film(start.width, start.height, 0x1p38 / start.scale);
+    result.film = Film(start.width, start.height, 0x1p38 / start.scale, std::move(emitters));
+    result.film.add_by_chance(by_chance);
     for (const int h : {0, 1}) take(result.film.sums(h));
     if (checksum_ != start.checksum) fail(damaged);
     if (version != GLIMT_VERSION)
@@ -178,10 +185,17 @@ void write_checkpoint(const fs::path& file, const Checkpoint& checkpoint) {
   start.invalid = film.invalid();
   start.saturated = film.saturated();
   start.nanoseconds = std::llround(checkpoint.seconds * 1e9);
+  start.emitters = static_cast<std::uint32_t>(film.emitters().size());
 
-  std::array<std::string_view, 7> pieces{
-      checkpoint_signature,   bytes_of(std::span(&start, 1)), version, scene, bytes_of(std::span(film.ranges())),
-      bytes_of(film.sums(0)), bytes_of(film.sums(1))};
+  std::array<std::string_view, 9> pieces{checkpoint_signature,
+                                         bytes_of(std::span(&start, 1)),
+                                         version,
+                                         scene,
+                                         bytes_of(std::span(film.ranges())),
+                                         bytes_of(std::span(film.emitters())),
+                                         bytes_of(film.by_chance()),
+                                         bytes_of(film.sums(0)),
+                                         bytes_of(film.sums(1))};
   start.checksum = add_to_checksum(0, checked_bytes(start));
   for (const std::string_view piece : std::span(pieces).subspan(2))
     start.checksum = add_to_checksum(start.checksum, piece);

@@ -26,9 +26,10 @@ struct Checkpoint {
 ///
 /// The file, little-endian: an 8-byte signature; uint32 format; uint32 CRC-32 of all that follows; uint32 lengths of
 /// version and scene text and number of ranges; int32 width, height and next_check; double scale of the sums; uint64
-/// invalid and saturated; int64 nanoseconds; version; scene text; int32 first and count of each range of samples;
-/// uint64 sums of half 0, then of half 1, three a pixel. The sums are not compressed: zlib takes ten times as long as
-/// the disk and saves half.
+/// invalid and saturated; int64 nanoseconds; uint32 number of emitters and 0; version; scene text; int32 first and
+/// count of each range of samples; double radiance and uint64 ways of each emitter; their uint64 counters
+/// (chance_counters()); uint64 sums of half 0, then of half 1, three a pixel. The sums are not compressed: zlib takes
+/// ten times as long as the disk and saves half.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// Reads a file that this version of glimt wrote. Throws CheckpointError for any other, damaged or cut short, before it

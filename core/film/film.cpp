@@ -109,7 +109,8 @@ void Film::add(int half, std::span<const Splat> splats) {
 }
 
 void Film::add(const Film& other) {
-  if (other.width_ != width_ || other.height_ != height_ || other.scale_ != scale_)
+  if (other.width_ != width_ || other.height_ != height_ || other.scale_ != scale_ ||
+      other.by_chance_.size() != by_chance_.size())
     throw std::invalid_argument("films of different units");
   if (overlap_of(ranges_, other.ranges_)) throw std::invalid_argument("films with samples in common");
   for (std::size_t h = 0; h < 2; ++h)

@@ -55,8 +55,7 @@ Unseen unseen_light(const Film& film, double picture_mean) {
     const Emitter& emitter = film.emitters()[i];
     for (std::size_t way = 0; way < chance_ways; ++way) {
       const double hits = static_cast<double>(film.by_chance()[i * chance_ways + way]) / chance_unit;
-      if (emitter.by_chance_alone[way] && hits < enough_hits)
-        missing[way] += missing_events(hits) * emitter.radiance / paths;
+      if (emitter.is_left(way) && hits < enough_hits) missing[way] += missing_events(hits) * emitter.radiance / paths;
     }
   }
   double all = 0, mirrored = 0;
@@ -75,7 +74,7 @@ Unseen unseen_light(const Film& film, double picture_mean) {
 
 std::string light_by_chance(const Film& film) {
   return names_of([&](std::size_t way) {
-    return std::ranges::any_of(film.emitters(), [&](const Emitter& e) { return e.by_chance_alone[way]; });
+    return std::ranges::any_of(film.emitters(), [&](const Emitter& e) { return e.is_left(way); });
   });
 }
 

@@ -46,13 +46,14 @@ radius = 1
 
 /// Samples of random radiance from `first` on, the same whichever others there are.
 Film film_of(SampleRange range, int width = 2, int height = 1) {
-  Film film(width, height, 3);
+  Film film(width, height, 3, {Emitter{3, 4}});
   film.go_on_from(range.first);
   for (int n = range.first; n < range.end(); ++n) {
     std::mt19937 random(static_cast<unsigned>(n));
     std::lognormal_distribution<float> value(0, 3);
     for (int pixel = 0; pixel < width * height; ++pixel)
       film.add(pixel, n % 2, value(random), value(random), value(random));
+    film.add_by_chance(std::array<std::uint64_t, chance_counters(1)>{0, 0, random(), 0, 1});
   }
   film.finish_pass(range.count);
   return film;
@@ -66,6 +67,12 @@ void expect_same(const Film& a, const Film& b) {
   EXPECT_EQ(a.invalid(), b.invalid());
   EXPECT_EQ(a.saturated(), b.saturated());
   for (const int h : {0, 1}) EXPECT_TRUE(std::ranges::equal(a.sums(h), b.sums(h))) << "half " << h;
+  EXPECT_TRUE(std::ranges::equal(a.by_chance(), b.by_chance()));
+  ASSERT_EQ(a.emitters().size(), b.emitters().size());
+  for (std::size_t i = 0; i < a.emitters().size(); ++i) {
+    EXPECT_EQ(a.emitters()[i].radiance, b.emitters()[i].radiance);
+    EXPECT_EQ(a.emitters()[i].ways, b.emitters()[i].ways);
+  }
 }
 
 // A part's samples are numbered as the whole's: sample 2k + h is in half h, wherever the part begins.
@@ -193,8 +200,8 @@ class CheckpointFile : public glimt::testing::OwnFolder {
   }
 
   static constexpr std::size_t checked_from = 16;  ///< behind signature, format and checksum
-  static constexpr std::size_t width_at = 28, scale_at = 40, nanoseconds_at = 64, version_at = 72;
-  std::size_t ranges_at() const { return bytes_.size() - 2 * 6 * 8 - 2 * 8; }
+  static constexpr std::size_t width_at = 28, scale_at = 40, nanoseconds_at = 64, version_at = 80;
+  std::size_t ranges_at() const { return bytes_.size() - 2 * 6 * 8 - (16 + 5 * 8) - 2 * 8; }
   Checkpoint whole_;
   std::string bytes_;
 };
