@@ -87,31 +87,68 @@ Comparison compare(const Image& x, const Image& reference) {
 
 namespace {
 
-constexpr int block_size = 8;
+constexpr int block_size = 8, quarter_size = 4;  // pixels
 
-/// Of a block of pixels.
-struct BlockSums {
-  std::array<double, 3> radiance{};                                          ///< sum of all samples
-  std::array<std::array<double, 3>, block_size * block_size / 4> squares{};  ///< by 2x2 squares: sum of (h0 - h1)^2
+/// What a block of pixels adds to the estimates, before the factor for halves and pixels.
+struct ErrorSums {
+  double relmse = 0, scaled = 0, scaled_squares = 0;
+
+  void operator+=(const ErrorSums& other) {
+    relmse += other.relmse;
+    scaled += other.scaled;
+    scaled_squares += other.scaled_squares;
+  }
 };
 
-/// The blocks of one row of them, from pixel row y0 on.
-std::vector<BlockSums> blocks_of(const Film& film, int y0) {
-  std::vector<BlockSums> blocks(static_cast<std::size_t>((film.width() + block_size - 1) / block_size));
-  const double n0 = film.half_samples(0), n1 = film.half_samples(1);
-  for (int y = y0; y < std::min(y0 + block_size, film.height()); ++y)
-    for (int x = 0; x < film.width(); ++x) {
-      const auto a = film.half_sum(y * film.width() + x, 0), b = film.half_sum(y * film.width() + x, 1);
-      BlockSums& sums = blocks[static_cast<std::size_t>(x / block_size)];
-      const int square = (y - y0) / 2 * (block_size / 2) + x % block_size / 2;
-      auto& squares = sums.squares[static_cast<std::size_t>(square)];
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double difference = a[c] / n0 - b[c] / n1;
-        sums.radiance[c] += a[c] + b[c];
-        squares[c] += difference * difference;
-      }
+/// Of the block whose upper left pixel is (x0, y0).
+ErrorSums errors_in(const Film& film, int x0, int y0, double scaled_floor) {
+  using Rgb3 = std::array<double, 3>;
+  const double n0 = film.half_samples(0), n1 = film.half_samples(1), n = n0 + n1;
+  const int width = std::min(block_size, film.width() - x0), height = std::min(block_size, film.height() - y0);
+  std::array<std::array<std::array<Rgb3, 2>, block_size>, block_size> means;  ///< by row and column: of the halves
+  const auto mean_in = [&](int x1, int y1, int size) {
+    Rgb3 sum{};
+    const int x2 = std::min(x1 + size, width), y2 = std::min(y1 + size, height);
+    for (int y = y1; y < y2; ++y)
+      for (int x = x1; x < x2; ++x)
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto& [a, b] = means[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+          sum[c] += n0 * a[c] + n1 * b[c];
+        }
+    for (double& value : sum) value /= n * (x2 - x1) * (y2 - y1);
+    return sum;
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      auto& [a, b] = means[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+      const int pixel = (y0 + y) * film.width() + x0 + x;
+      const auto sum_a = film.half_sum(pixel, 0), sum_b = film.half_sum(pixel, 1);
+      for (std::size_t c = 0; c < 3; ++c) a[c] = sum_a[c] / n0, b[c] = sum_b[c] / n1;
     }
-  return blocks;
+
+  ErrorSums errors;
+  std::array<double, block_size * block_size / 4> by_square{};  ///< of 2x2 pixels
+  const Rgb3 block = mean_in(0, 0, block_size);
+  for (int qy = 0; qy < height; qy += quarter_size)
+    for (int qx = 0; qx < width; qx += quarter_size) {
+      const Rgb3 quarter = mean_in(qx, qy, quarter_size);
+      for (int y = qy; y < std::min(qy + quarter_size, height); ++y)
+        for (int x = qx; x < std::min(qx + quarter_size, width); ++x) {
+          const auto& [a, b] = means[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+          double& square = by_square[static_cast<std::size_t>(y / 2 * (block_size / 2) + x / 2)];
+          for (std::size_t c = 0; c < 3; ++c) {
+            const double difference2 = (a[c] - b[c]) * (a[c] - b[c]), own = (n0 * a[c] + n1 * b[c]) / n;
+            const double m = own < quarter[c] / 2 ? own : quarter[c];
+            errors.relmse += difference2 / (block[c] * block[c] + dark);
+            square += ratio(difference2, m * m + scaled_floor);
+          }
+        }
+    }
+  for (const double square : by_square) {
+    errors.scaled += square;
+    errors.scaled_squares += square * square;
+  }
+  return errors;
 }
 
 double mean_of(const Film& film) {
@@ -133,38 +170,15 @@ ErrorEstimate estimate_error(const Film& film) {
   const double n0 = film.half_samples(0), n1 = film.half_samples(1), n = n0 + n1;
   const double picture_mean = mean_of(film), scaled_floor = scaled_dark(picture_mean);
   const int block_rows = (film.height() + block_size - 1) / block_size;
-  struct RowSums {
-    double relmse = 0, scaled = 0, scaled_squares = 0;
-  };
 
   // One sum per row of blocks, added in order: the same value for any number of threads.
-  std::vector<RowSums> rows(static_cast<std::size_t>(block_rows));
+  std::vector<ErrorSums> rows(static_cast<std::size_t>(block_rows));
 #pragma omp parallel for if (film.width() * film.height() > (1 << 16))
-  for (int row = 0; row < block_rows; ++row) {
-    RowSums& total = rows[static_cast<std::size_t>(row)];
-    const int height = std::min(block_size, film.height() - row * block_size);
-    int x = 0;
-    for (const BlockSums& sums : blocks_of(film, row * block_size)) {
-      const double samples = n * height * std::min(block_size, film.width() - x);
-      x += block_size;
-      for (const auto& squares : sums.squares) {
-        double scaled = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-          const double m = sums.radiance[c] / samples;
-          total.relmse += squares[c] / (m * m + dark);
-          scaled += ratio(squares[c], m * m + scaled_floor);
-        }
-        total.scaled += scaled;
-        total.scaled_squares += scaled * scaled;
-      }
-    }
-  }
-  RowSums all;
-  for (const RowSums& row : rows) {
-    all.relmse += row.relmse;
-    all.scaled += row.scaled;
-    all.scaled_squares += row.scaled_squares;
-  }
+  for (int row = 0; row < block_rows; ++row)
+    for (int x = 0; x < film.width(); x += block_size)
+      rows[static_cast<std::size_t>(row)] += errors_in(film, x, row * block_size, scaled_floor);
+  ErrorSums all;
+  for (const ErrorSums& row : rows) all += row;
   const double per_value = (n0 * n1 / (n * n)) / (3.0 * film.width() * film.height());
   ErrorEstimate result{.relmse = all.relmse * per_value, .relmse_scaled = all.scaled * per_value};
   Unseen unseen = unseen_light(film, picture_mean);
@@ -181,8 +195,9 @@ ErrorEstimate estimate_error(const Film& film) {
     result.low /= spread;
     result.high *= spread;
   }
-  if (unseen.relmse > std::min(result.high, 2 * result.relmse_scaled) - result.relmse_scaled)
-    result.unseen = std::move(unseen);
+  const bool shows = unseen.relmse > std::min(result.high, 2 * result.relmse_scaled) - result.relmse_scaled;
+  result.high += unseen.relmse;
+  if (shows) result.unseen = std::move(unseen);
   return result;
 }
 
