@@ -35,10 +35,11 @@ double mean_without_largest(std::vector<double>& errors, std::size_t left_out) {
 /// A relative error; 0 where a black picture has none.
 double ratio(double square, double of) { return square > 0 ? square / of : 0; }
 
-/// 97.5 % of ratios of two independent chi-square variables, each over its `degrees` of freedom, are below this
+/// 99 % of ratios of two independent chi-square variables, each over its `degrees` of freedom, are below this
 /// (Paulson's approximation, 1942). Infinite for so few degrees that nothing can be said.
 double largest_ratio(double degrees) {
-  constexpr double z = 1.96;
+  if (!(degrees > 0)) return std::numeric_limits<double>::infinity();
+  constexpr double z = 2.33;
   const double a = 2 / (9 * degrees), b = (1 - a) * (1 - a), c = b - z * z * a;
   if (!(c > 0)) return std::numeric_limits<double>::infinity();
   const double root = (b + std::sqrt(b * b - c * c)) / c;
@@ -87,11 +88,11 @@ Comparison compare(const Image& x, const Image& reference) {
 
 namespace {
 
-constexpr int block_size = 8, quarter_size = 4;  // pixels
+constexpr int block_size = 8, part_size = 4;  // pixels
 
-/// What a block of pixels adds to the estimates, before the factor for halves and pixels.
+/// What pixels add to the estimates, before the factor for halves and pixels.
 struct ErrorSums {
-  double relmse = 0, scaled = 0, scaled_squares = 0;
+  double relmse = 0, scaled = 0, scaled_squares = 0;  ///< the last: of what parts add to `scaled`
 
   void operator+=(const ErrorSums& other) {
     relmse += other.relmse;
@@ -100,54 +101,64 @@ struct ErrorSums {
   }
 };
 
-/// Of the block whose upper left pixel is (x0, y0).
-ErrorSums errors_in(const Film& film, int x0, int y0, double scaled_floor) {
-  using Rgb3 = std::array<double, 3>;
-  const double n0 = film.half_samples(0), n1 = film.half_samples(1), n = n0 + n1;
-  const int width = std::min(block_size, film.width() - x0), height = std::min(block_size, film.height() - y0);
-  std::array<std::array<std::array<Rgb3, 2>, block_size>, block_size> means;  ///< by row and column: of the halves
-  const auto mean_in = [&](int x1, int y1, int size) {
-    Rgb3 sum{};
-    const int x2 = std::min(x1 + size, width), y2 = std::min(y1 + size, height);
-    for (int y = y1; y < y2; ++y)
-      for (int x = x1; x < x2; ++x)
-        for (std::size_t c = 0; c < 3; ++c) {
-          const auto& [a, b] = means[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-          sum[c] += n0 * a[c] + n1 * b[c];
-        }
-    for (double& value : sum) value /= n * (x2 - x1) * (y2 - y1);
-    return sum;
-  };
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      auto& [a, b] = means[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-      const int pixel = (y0 + y) * film.width() + x0 + x;
-      const auto sum_a = film.half_sum(pixel, 0), sum_b = film.half_sum(pixel, 1);
-      for (std::size_t c = 0; c < 3; ++c) a[c] = sum_a[c] / n0, b[c] = sum_b[c] / n1;
-    }
+/// A part of a block: 4x4 pixels, or what of them is in the picture. Values are by row, pixel and channel.
+struct BlockPart {
+  static constexpr std::size_t row_values = 3 * part_size, values = row_values * part_size;
+  int pixels = 0;
+  std::array<double, 3> sum{};
+  std::array<double, values> own{}, low{},
+      high{};  ///< mean of all samples; the halves' means, the lower and the higher
 
-  ErrorSums errors;
-  std::array<double, block_size * block_size / 4> by_square{};  ///< of 2x2 pixels
-  const Rgb3 block = mean_in(0, 0, block_size);
-  for (int qy = 0; qy < height; qy += quarter_size)
-    for (int qx = 0; qx < width; qx += quarter_size) {
-      const Rgb3 quarter = mean_in(qx, qy, quarter_size);
-      for (int y = qy; y < std::min(qy + quarter_size, height); ++y)
-        for (int x = qx; x < std::min(qx + quarter_size, width); ++x) {
-          const auto& [a, b] = means[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
-          double& square = by_square[static_cast<std::size_t>(y / 2 * (block_size / 2) + x / 2)];
-          for (std::size_t c = 0; c < 3; ++c) {
-            const double difference2 = (a[c] - b[c]) * (a[c] - b[c]), own = (n0 * a[c] + n1 * b[c]) / n;
-            const double m = own < quarter[c] / 2 ? own : quarter[c];
-            errors.relmse += difference2 / (block[c] * block[c] + dark);
-            square += ratio(difference2, m * m + scaled_floor);
-          }
+  BlockPart(const Film& film, int x0, int y0) {
+    const double n0 = film.half_samples(0), n1 = film.half_samples(1), share = n0 / (n0 + n1);
+    const int width = std::min(part_size, film.width() - x0), height = std::min(part_size, film.height() - y0);
+    if (width <= 0 || height <= 0) return;
+    pixels = width * height;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const int pixel = (y0 + y) * film.width() + x0 + x;
+        const auto a = film.half_sum(pixel, 0), b = film.half_sum(pixel, 1);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double h0 = a[c] / n0, h1 = b[c] / n1, mean = share * h0 + (1 - share) * h1;
+          const std::size_t k = static_cast<std::size_t>(y) * row_values + static_cast<std::size_t>(3 * x) + c;
+          own[k] = mean, low[k] = std::min(h0, h1), high[k] = std::max(h0, h1);
+          sum[c] += mean;
         }
-    }
-  for (const double square : by_square) {
-    errors.scaled += square;
-    errors.scaled_squares += square * square;
+      }
   }
+
+  /// `block`: mean of the block around.
+  ErrorSums errors(const std::array<double, 3>& block, double scaled_floor) const {
+    const double others = std::max(pixels - 1, 1);
+    std::array<double, 3> relmse{}, scaled{};
+    for (std::size_t k = 0; k < values; k += 3)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double difference = high[k + c] - low[k + c], square = difference * difference;
+        const double around = pixels > 1 ? (sum[c] - own[k + c]) / others : own[k + c];
+        const double bright = std::max(around, low[k + c]);
+        const double m2 = own[k + c] < around / 2 ? low[k + c] * high[k + c] : bright * bright;
+        relmse[c] += square / (block[c] * block[c] + dark);
+        scaled[c] += ratio(square, m2 + scaled_floor);
+      }
+    const double all = scaled[0] + scaled[1] + scaled[2];
+    return {relmse[0] + relmse[1] + relmse[2], all, all * all};
+  }
+};
+
+/// Of the block whose upper left pixel is (x, y).
+ErrorSums errors_in(const Film& film, int x, int y, double scaled_floor) {
+  const std::array parts{BlockPart(film, x, y), BlockPart(film, x + part_size, y), BlockPart(film, x, y + part_size),
+                         BlockPart(film, x + part_size, y + part_size)};
+  std::array<double, 3> mean{};
+  double pixels = 0;
+  for (const BlockPart& part : parts) {
+    for (std::size_t c = 0; c < 3; ++c) mean[c] += part.sum[c];
+    pixels += part.pixels;
+  }
+  for (double& value : mean) value /= pixels;
+  ErrorSums errors;
+  for (const BlockPart& part : parts)
+    if (part.pixels > 0) errors += part.errors(mean, scaled_floor);
   return errors;
 }
 
@@ -190,8 +201,8 @@ ErrorEstimate estimate_error(const Film& film) {
   }
   result.low = result.high = result.relmse_scaled;
   if (all.scaled > 0) {
-    // The degrees of freedom of S, the sum of squares e of one degree each: 3 S^2 / sum e^2 - 2 (core/README.md).
-    const double spread = largest_ratio(3 * all.scaled * all.scaled / all.scaled_squares - 2);
+    // U - 2 for the U parts of core/README.md.
+    const double spread = largest_ratio(3 * all.scaled * all.scaled / all.scaled_squares - 4);
     result.low /= spread;
     result.high *= spread;
   }

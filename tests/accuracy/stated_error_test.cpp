@@ -51,6 +51,7 @@ TEST_P(StatedErrorLong, HoldsForNinetyFiveOfAHundredSeeds) {
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += static_cast<double>(pictures.back().rgb[k]);
   }
   int held = 0;
+  double truths = 0, estimates = 0;
   std::string misses;
   for (std::size_t i = 0; i < seeds; ++i) {
     Image truth = pictures[i];
@@ -59,21 +60,24 @@ TEST_P(StatedErrorLong, HoldsForNinetyFiveOfAHundredSeeds) {
     const double error = compare(pictures[i], truth).relmse_scaled;
     const bool holds = stated[i].low <= error && error <= std::max(stated[i].high, stated[i].at_most());
     held += holds;
+    truths += error;
+    estimates += stated[i].relmse_scaled;
     if (!holds)
       misses += "seed " + std::to_string(i + 1) + ": " + std::to_string(error) + ", " + trust_text(stated[i]) + "\n";
   }
   EXPECT_GE(held, 95) << misses;
-  std::printf("%s: %d of %d\n", GetParam().scene.c_str(), held, seeds);
+  std::printf("%s: held for %d of %d; errors over estimates %.3f\n", GetParam().scene.c_str(), held, seeds,
+              truths / estimates);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StatedErrorLong,
-                         testing::Values(RareLight{"tiny_lamp", 64, 0.01}, RareLight{"lamp_in_glass_box", 32, 0.03},
+                         testing::Values(RareLight{"tiny_lamp", 64, 0.01}, RareLight{"lamp_in_glass_box", 32, 0.05},
                                          RareLight{"dim_room", 64, 0.01}, RareLight{"slit", 32, 0.03},
-                                         RareLight{"two_mirrors", 32, 0.3}, RareLight{"three_panes", 24, 0.05},
+                                         RareLight{"two_mirrors", 24, 0.3}, RareLight{"three_panes", 16, 0.05},
                                          RareLight{"speck", 64, 0.01}, RareLight{"faint", 64, 0.01},
                                          RareLight{"strong", 64, 0.01}, RareLight{"pixel_wide", 64, 0.01},
                                          RareLight{"thread", 64, 0.01}, RareLight{"lamp_in_ball", 64, 0.01},
-                                         RareLight{"bulb", 32, 0.03}, RareLight{"caustic_in_mirror", 32, 0.03}),
+                                         RareLight{"bulb", 24, 0.05}, RareLight{"caustic_in_mirror", 16, 0.1}),
                          [](const auto& rare) { return rare.param.scene; });
 
 // What only chance can find, and has not: the picture is nearly black, and its two halves agree.
