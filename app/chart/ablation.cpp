@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "chart/materials.h"
-#include "chart/relative_weights.h"
 #include "chart/words.h"
 #include "scene/fields.h"
 
@@ -133,7 +132,7 @@ std::vector<Piece> pieces_of(const Scene& scene) {
 
 double error_of_difference(const Film& a, const Film& b) {
   const Image a0 = a.half_mean(0), a1 = a.half_mean(1), b0 = b.half_mean(0), b1 = b.half_mean(1);
-  const std::vector<double> weights = relative_weights(b.mean());
+  const std::vector<double> weights = relative_weights(b0, b1, 1.0 * b.half_samples(0) / b.samples());
   double total = 0;
   for (std::size_t i = 0; i < weights.size(); ++i)
     total += (static_cast<double>(a0.rgb[i]) - b0.rgb[i]) * (static_cast<double>(a1.rgb[i]) - b1.rgb[i]) * weights[i];

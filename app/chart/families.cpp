@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "chart/materials.h"
-#include "chart/relative_weights.h"
 #include "scene/camera_view.h"
 #include "scene/fields.h"
 #include "scene/pick.h"
@@ -36,9 +35,16 @@ std::vector<Part> parts_of(Scene scene) {
 
 /// Each family's part of relmse_scaled.
 Errors errors_of(const std::vector<Part>& parts, const std::vector<bool>& specular) {
-  Image picture = parts.front().film.mean();
-  if (parts.size() > 1) std::ranges::transform(picture.rgb, parts[1].film.mean().rgb, picture.rgb.begin(), std::plus());
-  const std::vector<double> weights = relative_weights(picture);
+  std::array<Image, 2> halves;
+  for (const int h : {0, 1}) {
+    Image& half = halves.at(static_cast<std::size_t>(h));
+    half = parts.front().film.half_mean(h);
+    if (parts.size() > 1)
+      std::ranges::transform(half.rgb, parts[1].film.half_mean(h).rgb, half.rgb.begin(), std::plus());
+  }
+  const Film& film = parts.front().film;
+  const std::vector<double> weights =
+      relative_weights(halves[0], halves[1], 1.0 * film.half_samples(0) / film.samples());
   Errors errors{};
   for (const Part& part : parts) {
     const Image deviation = part.film.standard_error();

@@ -101,25 +101,28 @@ struct ErrorSums {
   }
 };
 
+/// Means of the two halves at a pixel.
+struct HalfMeans {
+  std::array<double, 3> a, b;
+};
+
 /// A part of a block: 4x4 pixels, or what of them is in the picture. Values are by row, pixel and channel.
 struct BlockPart {
   static constexpr std::size_t row_values = 3 * part_size, values = row_values * part_size;
-  int pixels = 0;
+  int width = 0, height = 0;
   std::array<double, 3> sum{};
   std::array<double, values> own{}, low{},
       high{};  ///< mean of all samples; the halves' means, the lower and the higher
 
-  BlockPart(const Film& film, int x0, int y0) {
-    const double n0 = film.half_samples(0), n1 = film.half_samples(1), share = n0 / (n0 + n1);
-    const int width = std::min(part_size, film.width() - x0), height = std::min(part_size, film.height() - y0);
-    if (width <= 0 || height <= 0) return;
-    pixels = width * height;
+  /// Of a picture of that size, from (x0, y0) on. means(pixel) is its HalfMeans; `share`: of the samples in the first.
+  template <class Means>
+  BlockPart(int picture_width, int picture_height, int x0, int y0, double share, Means means)
+      : width(std::clamp(picture_width - x0, 0, part_size)), height(std::clamp(picture_height - y0, 0, part_size)) {
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const int pixel = (y0 + y) * film.width() + x0 + x;
-        const auto a = film.half_sum(pixel, 0), b = film.half_sum(pixel, 1);
+        const HalfMeans halves = means((y0 + y) * picture_width + x0 + x);
         for (std::size_t c = 0; c < 3; ++c) {
-          const double h0 = a[c] / n0, h1 = b[c] / n1, mean = share * h0 + (1 - share) * h1;
+          const double h0 = halves.a[c], h1 = halves.b[c], mean = share * h0 + (1 - share) * h1;
           const std::size_t k = static_cast<std::size_t>(y) * row_values + static_cast<std::size_t>(3 * x) + c;
           own[k] = mean, low[k] = std::min(h0, h1), high[k] = std::max(h0, h1);
           sum[c] += mean;
@@ -127,18 +130,23 @@ struct BlockPart {
       }
   }
 
+  int pixels() const { return width * height; }
+
+  /// The square of what the radiance is most likely to be; core/README.md, "Without a scale".
+  double likely_square(std::size_t k, std::size_t c) const {
+    const double around = pixels() > 1 ? (sum[c] - own[k]) / (pixels() - 1) : own[k];
+    const double bright = std::max(around, low[k]);
+    return own[k] < around / 2 ? low[k] * high[k] : bright * bright;
+  }
+
   /// `block`: mean of the block around.
   ErrorSums errors(const std::array<double, 3>& block, double scaled_floor) const {
-    const double others = std::max(pixels - 1, 1);
     std::array<double, 3> relmse{}, scaled{};
     for (std::size_t k = 0; k < values; k += 3)
       for (std::size_t c = 0; c < 3; ++c) {
         const double difference = high[k + c] - low[k + c], square = difference * difference;
-        const double around = pixels > 1 ? (sum[c] - own[k + c]) / others : own[k + c];
-        const double bright = std::max(around, low[k + c]);
-        const double m2 = own[k + c] < around / 2 ? low[k + c] * high[k + c] : bright * bright;
         relmse[c] += square / (block[c] * block[c] + dark);
-        scaled[c] += ratio(square, m2 + scaled_floor);
+        scaled[c] += ratio(square, likely_square(k + c, c) + scaled_floor);
       }
     const double all = scaled[0] + scaled[1] + scaled[2];
     return {relmse[0] + relmse[1] + relmse[2], all, all * all};
@@ -147,18 +155,27 @@ struct BlockPart {
 
 /// Of the block whose upper left pixel is (x, y).
 ErrorSums errors_in(const Film& film, int x, int y, double scaled_floor) {
-  const std::array parts{BlockPart(film, x, y), BlockPart(film, x + part_size, y), BlockPart(film, x, y + part_size),
-                         BlockPart(film, x + part_size, y + part_size)};
+  const double n0 = film.half_samples(0), n1 = film.half_samples(1);
+  const auto means = [&](int pixel) {
+    HalfMeans halves{film.half_sum(pixel, 0), film.half_sum(pixel, 1)};
+    for (std::size_t c = 0; c < 3; ++c) halves.a[c] /= n0, halves.b[c] /= n1;
+    return halves;
+  };
+  const auto part = [&](int px, int py) {
+    return BlockPart(film.width(), film.height(), px, py, n0 / (n0 + n1), means);
+  };
+  const std::array parts{part(x, y), part(x + part_size, y), part(x, y + part_size),
+                         part(x + part_size, y + part_size)};
   std::array<double, 3> mean{};
   double pixels = 0;
-  for (const BlockPart& part : parts) {
-    for (std::size_t c = 0; c < 3; ++c) mean[c] += part.sum[c];
-    pixels += part.pixels;
+  for (const BlockPart& p : parts) {
+    for (std::size_t c = 0; c < 3; ++c) mean[c] += p.sum[c];
+    pixels += p.pixels();
   }
   for (double& value : mean) value /= pixels;
   ErrorSums errors;
-  for (const BlockPart& part : parts)
-    if (part.pixels > 0) errors += part.errors(mean, scaled_floor);
+  for (const BlockPart& p : parts)
+    if (p.pixels() > 0) errors += p.errors(mean, scaled_floor);
   return errors;
 }
 
@@ -210,6 +227,30 @@ ErrorEstimate estimate_error(const Film& film) {
   result.high += unseen.relmse;
   if (shows) result.unseen = std::move(unseen);
   return result;
+}
+
+std::vector<double> relative_weights(const Image& half0, const Image& half1, double share) {
+  const double floor = scaled_dark(share * mean(half0) + (1 - share) * mean(half1));
+  std::vector<double> weights(half0.rgb.size(), 0);
+  if (!(floor > 0)) return weights;
+  const auto rgb = [](const Image& image, int pixel) {
+    const float* p = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(pixel);
+    return std::array<double, 3>{p[0], p[1], p[2]};
+  };
+  for (int y0 = 0; y0 < half0.height; y0 += part_size)
+    for (int x0 = 0; x0 < half0.width; x0 += part_size) {
+      const BlockPart part(half0.width, half0.height, x0, y0, share, [&](int pixel) {
+        return HalfMeans{rgb(half0, pixel), rgb(half1, pixel)};
+      });
+      for (int y = 0; y < part.height; ++y)
+        for (int x = 0; x < part.width; ++x)
+          for (std::size_t c = 0; c < 3; ++c)
+            weights[3 * static_cast<std::size_t>((y0 + y) * half0.width + x0 + x) + c] =
+                1 / (part.likely_square(
+                         static_cast<std::size_t>(y) * BlockPart::row_values + static_cast<std::size_t>(3 * x) + c, c) +
+                     floor);
+    }
+  return weights;
 }
 
 std::string trust_text(const ErrorEstimate& estimate) {

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "film/film.h"
 #include "film/unseen.h"
@@ -50,6 +51,11 @@ struct ErrorEstimate {
   double at_most() const { return relmse_scaled + unseen.relmse; }
 };
 ErrorEstimate estimate_error(const Film& film);
+
+/// What the estimate of relmse_scaled multiplies (h0 - h1)^2 with, for each pixel and channel: one over the likely
+/// square of the radiance (core/README.md, "Without a scale") with scaled_dark() of the whole. Of a picture by the
+/// means of its halves, of which the first has `share` of the samples. 0 for a black picture.
+std::vector<double> relative_weights(const Image& half0, const Image& half1, double share);
 
 /// How far to trust the film, in words: "error 0.0012 (0.0011 to 0.0013 in 95 of 100)", or "error at least 0.0012: up
 /// to 40 % of the light may be missing (caustics in mirrors and glass)".
