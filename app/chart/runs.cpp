@@ -85,8 +85,10 @@ std::vector<Measurement> measure(std::span<Variant> variants, const Plan& plan, 
         const int end = last[i] > 0 ? last[i] : plan.spp;
         seconds[i] +=
             seconds_of_pass(variants[i].scene, film, std::min(std::max(1, samples), end - samples), plan.execution);
+        const ErrorEstimate estimate = estimate_error(film);
         measurements.push_back(
-            {i, variants[i].scene.settings.seed, film.samples(), seconds[i], estimate_error(film).relmse_scaled});
+            {i, variants[i].scene.settings.seed, film.samples(), seconds[i], estimate.relmse_scaled});
+        measurements.back().at_least = estimate.is_bound();
         if (reference) measurements.back().error = compare(film.mean(), *reference);
         time = std::max({time, seconds[i] / plan.seconds, static_cast<double>(film.samples()) / plan.spp});
       }
@@ -120,11 +122,14 @@ Outcome outcome(std::span<const Measurement> measurements, std::size_t variant) 
 Chart error_chart(std::span<const Variant> variants, std::span<const Measurement> measurements) {
   Chart chart;
   const bool compared = !measurements.empty() && measurements.front().error.has_value();
+  bool bounds = false;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     ChartCurve curve;
     curve.label = variants[i].label;
     for (const auto& [spp, at] : by_spp(measurements, i)) {
-      const ChartPoint estimate = point_of(at, [](const Measurement& m) { return m.estimate; });
+      ChartPoint estimate = point_of(at, [](const Measurement& m) { return m.estimate; });
+      estimate.at_least = std::ranges::any_of(at, &Measurement::at_least);
+      bounds = bounds || (estimate.at_least && !compared);
       curve.points.push_back(compared ? point_of(at, [](const Measurement& m) { return m.error->relmse_scaled; })
                                       : estimate);
       if (compared) curve.thin.push_back(estimate);
@@ -139,6 +144,7 @@ Chart error_chart(std::span<const Variant> variants, std::span<const Measurement
   if (compared)
     chart.notes.emplace_back(
         "Thin line: the error as the picture's own two halves estimate it, without the reference.");
+  if (bounds) chart.notes.emplace_back("Open markers: at least so much. Light that chance alone finds may be missing.");
   return chart;
 }
 

@@ -33,6 +33,7 @@ struct Measurement {
   double seconds = 0;                 ///< wall-clock, of rendering
   double estimate = 0;                ///< relmse_scaled, from the two halves; infinite where unknown
   std::optional<Comparison> error{};  ///< against the reference, where there is one
+  bool at_least = false;              ///< the estimate is a bound: light may not have been found yet
 };
 
 /// Adds `count` samples to every pixel of the film. Returns the wall-clock time it took.

@@ -226,14 +226,14 @@ class Drawing {
       svg += polyline(chart_.curves[i].thin, stroke + "stroke-width='0.9' stroke-opacity='0.75'");
       svg += polyline(chart_.curves[i].points, stroke + "stroke-width='2' stroke-dasharray='" + dash + "'");
       for (const auto& p : chart_.curves[i].points)
-        if (can_show(chart_, p)) svg += marker_at(across(p.x), down(p.y), colour, marker);
+        if (can_show(chart_, p)) svg += marker_at(across(p.x), down(p.y), colour, marker, p.at_least);
     }
     return svg + "</g>\n";
   }
 
-  static std::string marker_at(double x, double y, const std::string& colour, const char* marker) {
-    return "<g transform='translate(" + formatted(x) + " " + formatted(y) + ")' fill='" + colour + "' stroke='" +
-           colour + "' stroke-width='1.2'>" + marker + "</g>\n";
+  static std::string marker_at(double x, double y, const std::string& colour, const char* marker, bool open = false) {
+    return "<g transform='translate(" + formatted(x) + " " + formatted(y) + ")' fill='" + (open ? "#fff" : colour) +
+           "' stroke='" + colour + "' stroke-width='1.2'>" + marker + "</g>\n";
   }
 
   /// Below the plot, in as many columns as the longest label allows.

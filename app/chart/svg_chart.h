@@ -9,6 +9,7 @@ namespace glimt {
 struct ChartPoint {
   double x = 0, y = 0;
   double low = 0, high = 0;  ///< of y
+  bool at_least = false;     ///< y is a bound from below: an open marker
 };
 
 struct ChartCurve {

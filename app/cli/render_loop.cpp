@@ -53,7 +53,8 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
       estimated_at = result.seconds;
     }
     const bool error_reached = checked && (estimate.at_most() <= goal.relmse_scaled || unlit);
-    if (checked && !error_reached) result.next_check = next_check(film.samples(), estimate.at_most(), goal.relmse_scaled);
+    if (checked && !error_reached)
+      result.next_check = next_check(film.samples(), estimate.at_most(), goal.relmse_scaled);
     result.reached = film.samples() >= goal.samples.count || seconds_left <= sample_seconds / 2 || error_reached;
 
     if (after.report && count > 0) {

@@ -135,7 +135,7 @@ inline constexpr auto chance_ways = static_cast<std::size_t>(ChanceWay::count);
 
 /// A lamp, or an object that glows, some of whose light is left to chance; see film/unseen.h.
 struct Emitter {
-  double radiance = 0;  ///< mean of its channels, W/(m^2 sr)
+  double radiance = 0;     ///< mean of its channels, W/(m^2 sr)
   std::uint64_t ways = 0;  ///< those left to chance: bit k is ChanceWay k
 
   bool is_left(std::size_t way) const { return (ways >> way & 1) != 0; }

@@ -16,7 +16,9 @@ std::string curves_csv(const std::vector<Curve>& curves) {
 }
 
 std::string curves_svg(const std::vector<Curve>& curves, Across axis, const std::string& title) {
-  const auto point = [&](const RunPoint& p, double error) { return ChartPoint{across(p, axis), error, error, error}; };
+  const auto point = [&](const RunPoint& p, double error, bool at_least) {
+    return ChartPoint{across(p, axis), error, error, error, at_least};
+  };
   Chart chart;
   chart.title = title;
   bool compared = false;
@@ -27,9 +29,9 @@ std::string curves_svg(const std::vector<Curve>& curves, Across axis, const std:
     const bool has_reference = kind == ErrorKind::reference;
     compared |= has_reference;
     for (const RunPoint& p : curve.points) {
-      if (const auto error = error_of(p, kind)) drawn.points.push_back(point(p, *error));
+      if (const auto error = error_of(p, kind)) drawn.points.push_back(point(p, *error, !has_reference && p.at_least));
       const auto estimate = error_of(p, ErrorKind::estimate);
-      if (has_reference && estimate) drawn.thin.push_back(point(p, *estimate));
+      if (has_reference && estimate) drawn.thin.push_back(point(p, *estimate, false));
     }
     chart.curves.push_back(std::move(drawn));
   }

@@ -14,7 +14,8 @@ constexpr float list_share = 0.44F, widest_list = 440;  ///< of the panel, desig
 std::vector<PlotPoint> points_of(const Curve& curve, ErrorKind kind, Across axis) {
   std::vector<PlotPoint> points;
   for (const RunPoint& p : curve.points)
-    if (const auto error = error_of(p, kind)) points.push_back({across(p, axis), *error});
+    if (const auto error = error_of(p, kind))
+      points.push_back({across(p, axis), *error, kind == ErrorKind::estimate && p.at_least});
   return points;
 }
 

@@ -47,6 +47,12 @@ void draw_marker(ImDrawList& list, const ImVec2& at, const CurveStyle& style) {
   }
 }
 
+/// A marker with a hole.
+void draw_open_marker(ImDrawList& list, const ImVec2& at, const CurveStyle& style) {
+  draw_marker(list, at, style);
+  list.AddCircleFilled(at, style::scaled(marker_size * 0.62F), style::well, 10);
+}
+
 float distance(const ImVec2& a, const ImVec2& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 ImVec2 between(const ImVec2& a, const ImVec2& b, float share) {
@@ -184,11 +190,14 @@ void Plot::draw_curve(const std::vector<PlotPoint>& points, const CurveStyle& st
   if (places.empty()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_dashed(list, places, style, style::scaled(1.8F));
+  std::vector<bool> open;
+  for (const PlotPoint& p : points)
+    if (can_show(p)) open.push_back(p.at_least);
   const ImVec2* marked = nullptr;
-  for (const ImVec2& at : places) {
-    const bool last = &at == &places.back();
-    if (marked && !last && distance(*marked, at) < style::scaled(marker_gap)) continue;
-    draw_marker(list, at, style);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const ImVec2& at = places[i];
+    if (marked && i + 1 < places.size() && distance(*marked, at) < style::scaled(marker_gap)) continue;
+    (open[i] ? draw_open_marker : draw_marker)(list, at, style);
     marked = &at;
   }
 }

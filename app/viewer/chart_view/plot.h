@@ -13,6 +13,7 @@ namespace glimt {
 
 struct PlotPoint {
   double x = 0, y = 0;
+  bool at_least = false;  ///< y is a bound from below: an open marker
 };
 
 /// How a curve looks: curves differ in line and marker as well as in colour, so they can be told apart in grey.

@@ -18,6 +18,7 @@ struct RunPoint {
   double seconds = 0;               ///< of rendering
   double estimate = 0;              ///< relmse_scaled, from the two halves
   std::optional<Comparison> error;  ///< against the reference, where there was one
+  bool at_least = false;            ///< the estimate is a bound: light may not have been found yet
 };
 
 /// Error against time of one scene with one set of settings.

@@ -131,8 +131,7 @@ class Offscreen {
       const auto& frame = state().frame;
       if (!frame || !frame->finished || frame->version < state().version) return false;
       const Settings& target = state().scene.render;
-      return target.target_error > 0 ? frame->estimate.at_most() <= target.target_error
-                                     : frame->samples >= target.spp;
+      return target.target_error > 0 ? frame->estimate.at_most() <= target.target_error : frame->samples >= target.spp;
     });
   }
 

@@ -74,4 +74,23 @@ TEST(Runs, TheBrightnessOfTheSceneChangesNoTable) {
     EXPECT_NEAR(d.all.at(i).error, c.all.at(i).error, 1e-6 * c.all.at(i).error);
 }
 
+TEST(Runs, ABoundHasAnOpenMarker) {
+  Scene scene = read_scene(GLIMT_TESTS_DIR "/data/rare/tiny_lamp.toml",
+                           std::vector<std::string>{"image.width=16", "image.height=16"});
+  std::vector<Variant> variants;
+  variants.push_back({"path", "path", compile(scene)});
+  scene.render.light_sampling = LightSampling::none;
+  variants.push_back({"naive", "naive", compile(scene)});
+  std::vector<Measurement> measurements = measure(variants, plan, nullptr, {});
+  for (Measurement& m : measurements) {
+    EXPECT_TRUE(m.at_least == (m.variant == 1) || m.spp < 2) << m.variant << ", " << m.spp << " spp";
+    m.estimate = 0.01;  // that of a black picture has no place
+  }
+  const std::string svg = svg_chart(error_chart(variants, measurements));
+  EXPECT_NE(svg.find("' fill='#fff' stroke="), std::string::npos);
+  EXPECT_NE(svg.find("at least"), std::string::npos);
+  std::erase_if(measurements, [](const Measurement& m) { return m.variant == 1; });
+  EXPECT_EQ(svg_chart(error_chart(std::span(variants).first(1), measurements)).find("at least"), std::string::npos);
+}
+
 }  // namespace
