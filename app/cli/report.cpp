@@ -52,6 +52,7 @@ int run_report(ReportOptions& options) {
   add_errors(page, plan);
   add_balance(page, plan);
   add_stability(page, plan);
+  add_furnace(page, plan);
   replace_file(file, page.html());
   std::printf("%s\n", file.c_str());
   return 0;

@@ -33,5 +33,6 @@ void add_balance(Page& page, const ReportPlan& plan);      ///< load of glass ag
 void add_errors(Page& page, const ReportPlan& plan);       ///< where the report errs, and by how much
 void add_chart(Page& page, const ReportPlan& plan);        ///< error against time
 void add_stability(Page& page, const ReportPlan& plan);    ///< error against what makes methods fail
+void add_furnace(Page& page, const ReportPlan& plan);      ///< light that rough metal and glass lose
 
 }  // namespace glimt

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "accuracy/glossy_parts.h"
+#include "kernel/scattering/albedo.h"
 #include "kernel/scattering/surfaces.h"
 #include "statistics_helpers.h"
 
@@ -211,7 +212,8 @@ TEST(Glossy, SamplesFollowTheirDensity) {
 struct Albedo {
   double sampled, integral;
 };
-Albedo albedo(const Model& model, double view) {
+/// `through_factor` is on what is refracted.
+Albedo albedo(const Model& model, double view, double through_factor = 1) {
   constexpr int side = 100;
   const Sample surface(model.material, model.front);
   const V wo = towards(view);
@@ -229,7 +231,7 @@ Albedo albedo(const Model& model, double view) {
          Cells(axis, model.narrow(view), model.roughness < 0.4 && !model.narrow(view)).integrals([&](const dvec3& w) {
            return (w.z > 0) == (axis.z > 0) ? surface.evaluate(to_float(w), wo) : 0.0;
          }))
-      integral += part;
+      integral += part * (axis.z < 0 ? through_factor : 1);
   return {sum, integral};
 }
 
@@ -254,6 +256,19 @@ TEST(Glossy, KeepsEnergyButForLightBetweenFacets) {
       EXPECT_NEAR(a.sampled, a.integral, 0.02 * std::max(1.0, a.integral)) << model.name << ", view " << view;
       EXPECT_LT(a.integral, model.front ? 1.003 : 1.5 * 1.5 * 1.003) << model.name << ", view " << view;
     }
+}
+
+// What `glimt report` draws is the integral of BSDF |cos|, up to the error of its midpoint rule. The BSDF is for
+// radiance, which takes 1 / n^2 where it is refracted; flux does not.
+TEST(Glossy, DirectionalAlbedoIsTheIntegral) {
+  for (const double roughness : {0.25, 0.5, 1.0})
+    for (const double view : {0.02, 0.25 * pi, 75 * pi / 180})
+      for (const Model& model : {Model{"white metal", white_metal(roughness), true, roughness},
+                                 Model{"glass", frosted(roughness), true, roughness}})
+        EXPECT_NEAR(directional_albedo(model.material, view), albedo(model, view, 1.5 * 1.5).integral, 0.004)
+            << model.name << " of roughness " << roughness << ", view " << view;
+  for (const Material& smooth : {white_metal(0), frosted(0)})
+    EXPECT_NEAR(directional_albedo(smooth, 0.3), 1, 1e-6) << "nothing is lost";
 }
 
 // Light may run both ways: f is symmetric for a metal, f / n^2 for glass, n the index on the side that light leaves to.

@@ -37,9 +37,10 @@ TEST_F(ReportCommand, WritesOnePageThatHoldsEverything) {
   for (int i = 1; i <= 5; ++i) EXPECT_TRUE(has(page, "<h2>Figure " + std::to_string(i))) << i;
   for (const char* time : {">43 s<", ">63 s<", ">91 s<", ">148 s<"}) EXPECT_TRUE(has(page, time)) << time;
   for (const char* part : {"Table 1.", "Table 2.", "Table 3.", "Load balance", "caustics left out", "Size of the lamp",
-                           "Distance to the lamp", "Roughness", "Refractive index", "Reflectance"})
+                           "Distance to the lamp", "Roughness", "Refractive index", "Reflectance", "White metal",
+                           "Lost at roughness 1: 6"})
     EXPECT_TRUE(has(page, part)) << part;
-  EXPECT_EQ(count(page, "<svg "), 10U) << "one chart of time, nine of stability";
+  EXPECT_EQ(count(page, "<svg "), 12U) << "one chart of time, nine of stability, two of the light that is lost";
   EXPECT_EQ(count(page, "<img "), 34U) << "2 + 4 + 4 + 3 + 4 pictures in two ways";
   EXPECT_EQ(count(page, "<img "), count(page, "src='data:image/png;base64,"));
   EXPECT_EQ(count(page, "http"), count(page, "<svg xmlns='http://www.w3.org/2000/svg'")) << "nothing is fetched";
