@@ -47,7 +47,7 @@ void print_summary(const RenderOptions& options, const Film& film, double second
   const double paths = static_cast<double>(film.width()) * film.height() * film.samples();
   std::FILE* const stream = options.out == "-" ? stderr : stdout;
   const std::string name = options.out == "-" ? "standard output" : options.out.string();
-  const std::string by_chance = estimate.is_bound() ? "" : light_by_chance(film);
+  const std::string by_chance = estimate.is_bound() ? "" : light_by_chance(film.emitters());
   std::fprintf(stream, "%s: %d spp in %.2f s, %.1f Mpaths/s, %s%s%s\n", name.c_str(), film.samples(), seconds,
                paths / seconds / 1e6, trust_text(estimate).c_str(),
                by_chance.empty() ? "" : "; found by chance: ", by_chance.c_str());

@@ -72,10 +72,9 @@ Unseen unseen_light(const Film& film, double picture_mean) {
   return {all / total, std::min(relmse, 1.0), names_of([&](std::size_t way) { return missing[way] > 0; })};
 }
 
-std::string light_by_chance(const Film& film) {
-  return names_of([&](std::size_t way) {
-    return std::ranges::any_of(film.emitters(), [&](const Emitter& e) { return e.is_left(way); });
-  });
+std::string light_by_chance(const std::vector<Emitter>& emitters) {
+  return names_of(
+      [&](std::size_t way) { return std::ranges::any_of(emitters, [&](const Emitter& e) { return e.is_left(way); }); });
 }
 
 }  // namespace glimt

@@ -18,8 +18,8 @@ struct Unseen {
 /// `picture_mean`: of the film, over pixels and channels.
 Unseen unseen_light(const Film& film, double picture_mean);
 
-/// What of the film's light is left to chance, in words; empty where nothing is.
-std::string light_by_chance(const Film& film);
+/// What light is left to chance, in words; empty where none is.
+std::string light_by_chance(const std::vector<Emitter>& emitters);
 
 /// By how much more than `found` events might have been expected, as a Poisson distribution with that mean gives
 /// `found` or fewer events once in 20 times: 3.0 for none.

@@ -60,6 +60,12 @@ void draw_bar(const ImVec2& at, float width, float height, double share, ImU32 c
   list.AddText({at.x + width + style::scaled(8), at.y}, text, value.c_str());
 }
 
+/// The light that no technique looks for.
+void draw_chance(const ViewerState& state) {
+  const std::string light = state.compiled ? light_by_chance(state.compiled->emitters) : "";
+  if (!light.empty()) muted_text("Chance alone finds: " + light + ".");
+}
+
 }  // namespace
 
 void draw_families(const ViewerState& state, Edits& edits) {
@@ -76,10 +82,12 @@ void draw_families(const ViewerState& state, Edits& edits) {
     muted_text(
         "Noise is left by caustics and by other light, on matt surfaces and where a mirror or glass is seen. This "
         "measures how much by which, so that one sees what to work on.");
+    draw_chance(state);
     return;
   }
   draw_age(chart.families->scene, state.scene);
   draw_answer(chart.families->what);
+  draw_chance(state);
 }
 
 void draw_families_plot(const ViewerState& state, const Rect& place) {
