@@ -19,14 +19,15 @@ constexpr int samples = 16, tile = 16;  // pixels, as wide as the renderer's
 template <class V>
 nlohmann::json operations(const CompiledScene& scene) {
   operation_counts.fill(0);
+  std::vector<std::uint64_t> by_chance(chance_counters(scene.emitters.size()));
   int paths = 0;
   for (int y = 0; y < scene.height; y += tile)
     for (int x = 0; x < scene.width; x += tile) {
       const PathBlock block{x, y, std::min(tile, scene.width - x), std::min(tile, scene.height - y), 0, samples};
       const std::size_t values = 3 * static_cast<std::size_t>(block.paths());
       std::vector<float> counted_rgb(values), rgb(values);
-      trace_block<Counted<V>>(scene, block, counted_rgb.data());
-      trace_block<V>(scene, block, rgb.data());
+      trace_block<Counted<V>>(scene, block, counted_rgb.data(), by_chance);
+      trace_block<V>(scene, block, rgb.data(), by_chance);
       if (rgb != counted_rgb) throw std::runtime_error("the counted kernel renders another image");
       paths += block.paths();
     }
