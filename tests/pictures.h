@@ -90,4 +90,12 @@ inline Series render_series(Scene scene, int seeds, int samples, int block_size)
   return series;
 }
 
+/// Every third of some scenes, for the usual run of the tests; the others, for the long one.
+inline std::vector<Scene> every_third(const std::vector<Scene>& scenes, bool others = false) {
+  std::vector<Scene> some;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    if ((i % 3 != 0) == others) some.push_back(scenes[i]);
+  return some;
+}
+
 }  // namespace glimt

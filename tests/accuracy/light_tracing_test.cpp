@@ -139,7 +139,9 @@ TEST_P(LightPaths, AndChanceMakeOnePicture) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths, testing::ValuesIn(scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths, testing::ValuesIn(every_third(scenes())),
+                         [](const auto& scene) { return case_name(scene.param); });
+INSTANTIATE_TEST_SUITE_P(MoreScenesLong, LightPaths, testing::ValuesIn(every_third(scenes(), true)),
                          [](const auto& scene) { return case_name(scene.param); });
 
 // A scene without mirrors or glass has nothing to aim at: not a bit of its picture depends on the setting.

@@ -2,6 +2,7 @@
 // probability of a false alarm is alpha for each test.
 #include <gtest/gtest.h>
 
+#include "film/statistics.h"
 #include "same_picture.h"
 #include "scene_parts.h"
 
@@ -97,6 +98,11 @@ std::vector<Scene> scenes() {
                                   i % 3 == 0 ? "mirror" : "glass",
                                   {-1.6 + 0.35 * i, -0.6 + 0.1 * (i % 4), 0.3 * (i % 2)},
                                   0.14 + 0.003 * i});
+
+  // Far from a square metre, so that a density per area is not one per lamp.
+  all.push_back(mirror_room("a small lamp by solid angle", 0.3));
+  all.back().spheres = {{"ball", "mirror", {0.1, -0.4, 0.2}, 0.5}};
+  all.back().render.light_sampling = LightSampling::solid_angle;
   return all;
 }
 
@@ -145,7 +151,9 @@ TEST_P(SphereConnected, AndChanceMakeOnePicture) {
       for (std::size_t k = 0; k < i; ++k) expect_same(group[i], group[k], level, GetParam().name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SphereConnected, testing::ValuesIn(scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, SphereConnected, testing::ValuesIn(every_third(scenes())),
+                         [](const auto& scene) { return case_name(scene.param); });
+INSTANTIATE_TEST_SUITE_P(MoreScenesLong, SphereConnected, testing::ValuesIn(every_third(scenes(), true)),
                          [](const auto& scene) { return case_name(scene.param); });
 
 // A scene without specular spheres has nothing to connect over: not a bit of its picture depends on the setting.
@@ -155,6 +163,23 @@ TEST(SphereConnections, AreNoneWithoutSpecularSpheres) {
   EXPECT_TRUE(with.chain_spheres.empty());
   scene.render.sphere_connections = SphereConnections::off;
   EXPECT_EQ(render(with, 2).mean().rgb, render(compile(scene), 2).mean().rgb);
+}
+
+// A mirror ball in a cup that is open to the lamp. The mirror on the wall shows the floor outside, which does not see
+// the ball: no chain of four surfaces, of the wall, the floor, the ball and the lamp, brings any light.
+TEST(SphereConnections, DoNotShineThroughTheWallsOfACup) {
+  Scene scene = with_ball("cup", "mirror");
+  scene.camera.fov_y = 15;
+  scene.render.max_depth = 4;
+  scene.render.caustics = Caustics::only;
+  scene.render.light_paths = 0;
+  EXPECT_GT(mean(render(compile(scene), 16).mean()), 0.01) << "without the cup there is a caustic";
+  std::vector<Polygon> cup = box({-0.6, -1, -0.5}, {0.8, 0.3, 0.9}, "white");
+  std::erase_if(cup, [](const Polygon& wall) { return wall.name == "floor" || wall.name == "ceiling"; });
+  scene.polygons.insert(scene.polygons.end(), cup.begin(), cup.end());
+  const CompiledScene compiled = compile(scene);
+  ASSERT_EQ(compiled.chain_spheres.size(), 1U);
+  EXPECT_EQ(mean(render(compiled, 16).mean()), 0);
 }
 
 }  // namespace

@@ -110,7 +110,9 @@ TEST_P(TailSharing, KeepsThePicture) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, TailSharing, testing::ValuesIn(scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, TailSharing, testing::ValuesIn(every_third(scenes())),
+                         [](const auto& scene) { return case_name(scene.param); });
+INSTANTIATE_TEST_SUITE_P(MoreScenesLong, TailSharing, testing::ValuesIn(every_third(scenes(), true)),
                          [](const auto& scene) { return case_name(scene.param); });
 
 // Pixel by pixel, since means of blocks do not see what a square gives to the wrong one of its pixels. In scenes whose

@@ -57,7 +57,15 @@ auto setting(const CompiledScene& scene) {
   }
 }
 
-/// Calls f(std::integral_constant<Features, features>{}) with the smallest kernel that has what the scene needs.
+#ifdef GLIMT_GENERAL_KERNEL
+inline constexpr bool general_kernel_only = true;
+#else
+inline constexpr bool general_kernel_only = false;
+#endif
+
+/// Calls f(std::integral_constant<Features, features>{}) with the smallest kernel that has what the scene needs. Where
+/// GLIMT_GENERAL_KERNEL is defined there is but one, which has all: for sanitizers and static analysis, which would
+/// read the same source once for each.
 template <class Function>
 void with_features(const CompiledScene& scene, Function f) {
   const Settings& s = scene.settings;
@@ -82,8 +90,11 @@ void with_features(const CompiledScene& scene, Function f) {
                                                 .glow = false,
                                                 .any_settings = false}>{});
   };
-  if (!usual) {
-    f(std::integral_constant<Features, Features{}>{});
+  const auto general = std::integral_constant<Features, Features{}>{};
+  if constexpr (general_kernel_only) {
+    f(general);
+  } else if (!usual) {
+    f(general);
   } else if (lacks(~always)) {
     caustics ? call_usual.template operator()<always, true>() : call_usual.template operator()<always, false>();
   } else if (lacks(~often)) {
