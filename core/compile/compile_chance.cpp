@@ -5,6 +5,7 @@
 #include <string>
 
 #include "compile/lowering.h"
+#include "material/lobes.h"
 #include "scene/camera_view.h"
 
 namespace glimt {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "chart/materials.h"
+#include "film/unseen.h"
 #include "viewer/chart_view/chart_panel.h"
 #include "viewer/widgets/style.h"
 #include "viewer/widgets/widgets.h"
