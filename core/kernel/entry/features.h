@@ -64,8 +64,8 @@ inline constexpr bool general_kernel_only = false;
 #endif
 
 /// Calls f(std::integral_constant<Features, features>{}) with the smallest kernel that has what the scene needs. Where
-/// GLIMT_GENERAL_KERNEL is defined there is but one, which has all: for sanitizers and static analysis, which would
-/// read the same source once for each.
+/// GLIMT_GENERAL_KERNEL is defined there is but one, which has all: for static analysis, which would read the same
+/// source once for each. Sanitizers build it in a third of the time, but it is too slow for the tests of the worker.
 template <class Function>
 void with_features(const CompiledScene& scene, Function f) {
   const Settings& s = scene.settings;
