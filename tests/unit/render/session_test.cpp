@@ -32,7 +32,7 @@ using FramePtr = std::shared_ptr<const Frame>;
 /// The first frame seen for which `wanted` holds; null when none has come for a minute, which is no measurement but an
 /// end.
 FramePtr wait_for(const Session& session, const std::function<bool(const Frame&)>& wanted) {
-  for (const auto start = std::chrono::steady_clock::now(); std::chrono::steady_clock::now() - start < 60s;) {
+  for (const auto start = std::chrono::steady_clock::now(); std::chrono::steady_clock::now() - start < 240s;) {
     if (FramePtr frame = session.frame(); frame && wanted(*frame)) return frame;
     std::this_thread::sleep_for(1ms);
   }
