@@ -29,8 +29,8 @@ constexpr int endless = 1 << 24;
 
 using FramePtr = std::shared_ptr<const Frame>;
 
-/// The first frame seen for which `wanted` holds; null when none has come for a minute, which is no measurement but an
-/// end.
+/// The first frame seen for which `wanted` holds; null when none has come for four minutes, which is no measurement but
+/// an end: with sanitizers, and another test beside it, a frame may take one.
 FramePtr wait_for(const Session& session, const std::function<bool(const Frame&)>& wanted) {
   for (const auto start = std::chrono::steady_clock::now(); std::chrono::steady_clock::now() - start < 240s;) {
     if (FramePtr frame = session.frame(); frame && wanted(*frame)) return frame;
