@@ -45,7 +45,7 @@ std::string stats_json(const Scene& scene, const Film& film, const Execution& ex
   const ErrorEstimate error = estimate_error(film);
   json["relmse_estimate"] = error.relmse;
   json["relmse_scaled"] = error.relmse_scaled;
-  json["relmse_scaled_interval"] = {error.low, std::max(error.high, error.at_most())};
+  json["relmse_scaled_interval"] = {error.low, error.high};
   json["relmse_bound"] = error.at_most();
   json["flux_unseen"] = error.unseen.flux;
   json["threads"] = execution.threads > 0 ? execution.threads : hardware_threads();
