@@ -91,16 +91,18 @@ void with_features(const CompiledScene& scene, Function f) {
                                                 .any_settings = false}>{});
   };
   const auto general = std::integral_constant<Features, Features{}>{};
-  if constexpr (general_kernel_only) {
+  if (general_kernel_only || !usual) {
     f(general);
-  } else if (!usual) {
-    f(general);
-  } else if (lacks(~always)) {
-    caustics ? call_usual.template operator()<always, true>() : call_usual.template operator()<always, false>();
-  } else if (lacks(~often)) {
-    caustics ? call_usual.template operator()<often, true>() : call_usual.template operator()<often, false>();
-  } else {
-    call_usual.template operator()<all, true>();
+    return;
+  }
+  if constexpr (!general_kernel_only) {
+    if (lacks(~always)) {
+      caustics ? call_usual.template operator()<always, true>() : call_usual.template operator()<always, false>();
+    } else if (lacks(~often)) {
+      caustics ? call_usual.template operator()<often, true>() : call_usual.template operator()<often, false>();
+    } else {
+      call_usual.template operator()<all, true>();
+    }
   }
 }
 
