@@ -73,7 +73,7 @@ void add_material_piece(const Scene& scene, std::vector<Piece>& pieces, std::str
     pieces.push_back(std::move(piece));
 }
 
-/// Every other choice that materials have, and 0 in place of their numbers.
+/// Adds every other choice that materials have, and 0 in place of their numbers.
 void add_material_pieces(const Scene& scene, std::vector<Piece>& pieces) {
   for (const MaterialInfo& info : material_infos())
     for (const auto& field : info.fields) {
@@ -85,8 +85,8 @@ void add_material_pieces(const Scene& scene, std::vector<Piece>& pieces) {
     }
 }
 
-/// Renders both in turn, a part at a time, so that what else the machine does hits both alike. Returns the time of the
-/// first over that of the second.
+/// Renders both in turn, a part at a time, so that other load on the machine slows both alike. Returns the time of the
+/// first divided by that of the second.
 double render_both(const CompiledScene& a, Film& film_a, const CompiledScene& b, Film& film_b, const Plan& plan) {
   constexpr int parts = 4;
   double seconds_a = 0, seconds_b = 0;
@@ -99,7 +99,7 @@ double render_both(const CompiledScene& a, Film& film_a, const CompiledScene& b,
   return seconds_a / seconds_b;
 }
 
-/// What one piece was with each seed.
+/// The results of one piece, one for each seed.
 struct Series {
   std::vector<double> time, noise, efficiency, difference, mean;
 };
@@ -170,10 +170,10 @@ std::vector<Ablation> ablate(const Scene& scene, const std::vector<Piece>& piece
 }
 
 std::string verdict(const Piece& piece, const Ablation& a) {
-  // Five standard errors: with few seeds these are themselves uncertain.
+  // Five standard errors, since few seeds leave the standard error itself uncertain.
   const double margin = 5 * a.difference_error;
   const bool differs = a.difference - margin > visible_difference;
-  // An error of 0 where the noise is not the same means that no light that matters has been met yet.
+  // A standard error of 0 with unequal noise means that no sample has met the light that matters yet.
   const bool known = a.difference_error > 0 || a.noise == 1;
   const bool same = known && a.difference + margin < visible_difference;
   if (piece.model) return differs ? "needed: the image changes" : same ? "not needed here" : "more samples would tell";

@@ -15,8 +15,8 @@ struct Line {
   double intercept, slope;
 };
 
-/// The line through two points with neither part below 0, which chance alone can bring about: it then goes through the
-/// means instead.
+/// The line through two points, with neither part below 0. Where noise makes the slope negative, the line is the mean.
+/// Where it makes the intercept negative, the line goes through the origin and the mean point.
 Line fitted(double x0, double y0, double x1, double y1) {
   const double slope = (y1 - y0) / (x1 - x0), intercept = y0 - slope * x0;
   if (slope < 0) return {(y0 + y1) / 2, 0};
@@ -39,7 +39,7 @@ double ideal_shadow_rays(const ShadowRayModel& m) {
 }
 
 int best_shadow_rays(const ShadowRayModel& model) {
-  // Error times time is convex in M, so that the best whole number is beside the ideal one.
+  // Error times time is convex in M, so the best whole number is next to the ideal one.
   const double ideal = std::clamp(ideal_shadow_rays(model), 1.0, 1.0 * most_shadow_rays);
   const double below = std::floor(ideal), above = std::ceil(ideal);
   return static_cast<int>(model.efficiency(above) > model.efficiency(below) ? above : below);
@@ -47,7 +47,7 @@ int best_shadow_rays(const ShadowRayModel& model) {
 
 ShadowRayAdvice shadow_ray_advice(std::span<const int> rays, std::span<const Measurement> measurements) {
   std::set<std::pair<std::size_t, int>> runs;  // variant and seed
-  std::map<int, std::size_t> known;            // runs that know their error, by samples
+  std::map<int, std::size_t> known;            // number of runs that know their error, by samples
   for (const Measurement& m : measurements) {
     runs.emplace(m.variant, m.seed);
     if (std::isfinite(m.estimate)) ++known[m.spp];

@@ -21,7 +21,7 @@ struct Part {
   Film film;
 };
 
-/// Without caustics and caustics alone; one of them where the scene is set to it.
+/// The picture without caustics and the picture of caustics only; one of them where the scene is set to it.
 std::vector<Part> parts_of(Scene scene) {
   const Caustics shown = scene.render.caustics;
   std::vector<Part> parts;
@@ -94,15 +94,15 @@ Families measure_families(const Scene& scene, const Plan& plan, const std::funct
   const std::vector<bool> specular = sees_specular(scene);
   std::vector<Part> parts = parts_of(scene);
   std::vector<Errors> runs;
-  int last = 0;  // samples where a run ends; 0 while the first seed decides
+  int last = 0;  // samples at which a run ends; 0 while the first seed decides
   for (int run = 0; run < plan.seeds; ++run) {
-    // Independent random numbers, so that errors do not cancel.
+    // Each part has its own random numbers, so that errors do not cancel.
     for (std::size_t i = 0; i < parts.size(); ++i) {
       parts[i].scene.settings.seed = scene.render.seed + run * static_cast<int>(parts.size()) + static_cast<int>(i);
       parts[i].film = make_film(parts[i].scene);
     }
     const int end = last > 0 ? last : std::max(plan.spp, 2);
-    double seconds = 0;  // of the slowest
+    double seconds = 0;  // of the slower part
     for (int samples = 0; samples < end && (last > 0 || samples < 2 || 2 * seconds <= plan.seconds);
          samples = parts.front().film.samples()) {
       double pass = 0;

@@ -8,16 +8,16 @@
 #include "chart/runs.h"
 #include "scene/scene.h"
 
-/// Which light the remaining error of a picture is of: caustics or other light, where the pixel sees a mirror or glass
-/// or anything else.
+/// Which light the remaining error of a picture comes from. There are four families: caustics or other light, in pixels
+/// that see a mirror or glass first or in the others.
 namespace glimt {
 
-/// Over seeds.
+/// One family's figures over all seeds.
 struct Family {
-  double error = 0;          ///< its part of relmse_scaled, mean
-  double share = 0;          ///< of the error of all families, mean; 0 where there is no error
+  double error = 0;          ///< mean of its part of relmse_scaled
+  double share = 0;          ///< mean of its share of the error of all families; 0 where there is no error
   double low = 0, high = 0;  ///< quartiles of the share
-  double pixels = 0;         ///< share of the pixels it is seen in
+  double pixels = 0;         ///< share of the pixels in which it is seen
 };
 
 struct Families {
@@ -44,11 +44,11 @@ inline constexpr std::array<FamilyText, 4> family_texts{{
 /// Whether the centre of each pixel sees a mirror or glass first, row by row from the top.
 std::vector<bool> sees_specular(const Scene& scene);
 
-/// Renders the scene without caustics and with nothing else in turn, each with plan.seeds seeds to equal sample counts,
-/// plan.seconds or plan.spp at most. Errors are relmse_scaled as each one's halves estimate it, relative to the sum of
-/// both. Seeds are the scene's own and those that follow. What the scene's own setting of caustics leaves out is left
-/// out. `report` is called with the share done, and may throw to end it. Throws std::runtime_error where the scene has
-/// no mirrors and no glass.
+/// Renders the scene without caustics and with caustics only, in turn and to equal sample counts, with plan.seeds seeds
+/// each, for plan.seconds or to plan.spp at most. Where the scene's own setting leaves one of the two out, so does
+/// this. Errors are relmse_scaled as the halves of each picture estimate it, relative to the sum of both pictures.
+/// Seeds begin with the scene's own. Calls `report` with the share done; it may throw to stop the work. Throws
+/// std::runtime_error where the scene has no mirror and no glass.
 Families measure_families(const Scene& scene, const Plan& plan, const std::function<void(double)>& report);
 
 }  // namespace glimt

@@ -26,7 +26,7 @@ Image read_reference(const std::filesystem::path& file, const Scene& scene) {
   }
   const Metadata metadata = file.extension() == ".exr" ? read_metadata(file) : Metadata{};
   if (const auto text = metadata.find("scene"); text != metadata.end()) {
-    // Both as files hold them, whose numbers are rounded.
+    // Files hold rounded numbers, so the scene goes through its file's text too.
     if (!same_picture(parse_scene(text->second, file.string()), parse_scene(write_scene(scene), file.string())))
       throw std::runtime_error(file.string() +
                                " is of another scene: what it was rendered from differs in more than settings");

@@ -10,7 +10,7 @@
 namespace glimt {
 namespace {
 
-/// The first pass also pays for threads, memory and caches: it is not measured.
+/// Renders one pass that is not measured: the first pass also pays for threads, memory and caches.
 void warm_up(std::span<const Variant> variants, const Execution& execution) {
   for (const Variant& variant : variants) {
     Film film = make_film(variant.scene);
@@ -47,7 +47,7 @@ std::string csv_number(double value) {
   return text;
 }
 
-/// As a field of CSV: with a comma in it, in quotes.
+/// The text as a field of CSV: in quotes where it has a comma.
 std::string csv_text(const std::string& text) {
   return text.find(',') == std::string::npos ? text : "\"" + text + "\"";
 }
@@ -64,7 +64,7 @@ std::vector<Measurement> measure(std::span<Variant> variants, const Plan& plan, 
                                  const std::function<void(double)>& report) {
   warm_up(variants, plan.execution);
   std::vector<Measurement> measurements;
-  std::vector<int> last(variants.size(), 0);  // samples where a variant ends; 0 while the first seed decides
+  std::vector<int> last(variants.size(), 0);  // samples at which a variant ends; 0 while the first seed decides
   for (int run = 0; run < plan.seeds; ++run) {
     std::vector<Film> films;
     std::vector<double> seconds(variants.size(), 0);

@@ -14,8 +14,8 @@ namespace {
 constexpr double width = 720, left = 78, right = 20, top = 44, plot_height = 380, row_height = 21;
 constexpr double plot_width = width - left - right;
 
-// Okabe and Ito's colours, which differ for every kind of colour vision. The numbers of colours, dashes and markers
-// have no common divisor, so the first 210 curves all differ.
+// Okabe and Ito's colours, which people with any colour vision can tell apart. The numbers of colours, dashes and
+// markers have no common divisor, so the first 210 curves all differ.
 constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#000000", "#cc79a7", "#56b4e9", "#e69f00"};
 constexpr std::array dashes{"none", "9 4", "2 3", "12 3 2 3", "5 2"};
 constexpr std::array markers{"<circle r='3.8'/>",
@@ -57,7 +57,7 @@ std::string escaped(const std::string& text) {
 /// Where values lie along an axis, 0 to 1.
 struct Scale {
   bool logarithmic = true;
-  double first = 0, last = 1;  ///< of the value, or of its logarithm to base 10
+  double first = 0, last = 1;  ///< ends of the axis: values, or their logarithms to base 10
 
   double inner(double value) const { return logarithmic ? std::log10(value) : value; }
   double place(double value) const { return (inner(value) - first) / (last - first); }
@@ -65,7 +65,7 @@ struct Scale {
 
 struct Tick {
   double value;
-  std::string label;  ///< SVG; empty for the small ones
+  std::string label;  ///< SVG; empty for small ticks
 };
 
 bool can_show(const ChartAxis& axis, double value) { return std::isfinite(value) && (!axis.logarithmic || value > 0); }
@@ -95,7 +95,7 @@ std::vector<double> xs_of(const Chart& chart) {
   return values;
 }
 
-/// Bands included.
+/// All y values, bands included.
 std::vector<double> ys_of(const Chart& chart) {
   std::vector<double> values;
   for (const auto& curve : chart.curves) {
@@ -121,7 +121,7 @@ std::vector<Tick> logarithmic_ticks_of(const Scale& scale) {
   return ticks;
 }
 
-/// Five or so, at steps of 1, 2 or 5 times a power of ten.
+/// About five ticks, at steps of 1, 2 or 5 times a power of ten.
 std::vector<Tick> linear_ticks(const Scale& scale) {
   const double rough = (scale.last - scale.first) / 5, power = std::pow(10, std::floor(std::log10(rough)));
   const double step = power * (rough < 2 * power ? 2 : rough < 5 * power ? 5 : 10);
@@ -271,7 +271,7 @@ class Drawing {
 
   const Chart& chart_;
   Scale x_, y_;
-  double height_ = 0;  ///< of the whole, known once the legend is drawn
+  double height_ = 0;  ///< of the whole chart, known once the legend is drawn
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ struct ChartOptions : SceneOptions {
   bool ablate = false, quiet = false;
 };
 
-/// "path:sampler=sobol" as the scene with these settings.
+/// The variant that a name such as "path:sampler=sobol" stands for.
 Variant make_variant(const std::string& name, const SceneOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   std::string label;

@@ -15,7 +15,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
-/// The film of --resume.
+/// The checkpoint of --resume.
 Checkpoint resumed(const fs::path& file, const Scene& scene, const CompiledScene& compiled, const Goal& goal) {
   Checkpoint checkpoint;
   try {

@@ -6,22 +6,23 @@
 #include "cli/render_options.h"
 #include "film/checkpoint.h"
 
-/// What `glimt render` does with checkpoints.
+/// How `glimt render` uses checkpoints.
 namespace glimt {
 
-/// What rendering begins with: the film of --resume, or an empty one. Throws BadInput where the samples of --resume are
-/// not of this scene or not among the goal's, and where --checkpoint would replace a file that is not resumed.
+/// The film that rendering begins with: that of --resume, or an empty one. Throws BadInput where the samples of
+/// --resume belong to another scene or are not among the goal's, and where --checkpoint would replace a file that is
+/// not resumed.
 Checkpoint first_film(const RenderOptions& options, const Scene& scene, const CompiledScene& compiled,
                       const Goal& goal);
 
-/// Writes --checkpoint where it is given.
+/// Writes the file of --checkpoint, if that is given.
 class CheckpointWriter {
  public:
   explicit CheckpointWriter(const RenderOptions& options);
 
-  /// Writes where the last time was --every seconds ago. Says what failed and goes on.
+  /// Writes if the last time was --every seconds ago. Where that fails, prints why and goes on.
   void write_when_due(Checkpoint& checkpoint, const Rendering& rendering);
-  /// Returns false, and says why, where it cannot be written.
+  /// Where the file cannot be written, prints why and returns false.
   bool write(Checkpoint& checkpoint, const Rendering& rendering);
 
  private:

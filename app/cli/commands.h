@@ -7,7 +7,7 @@
 
 namespace glimt {
 
-/// What the command that was given does, once all options are parsed; returns the exit status.
+/// Runs the given command once all options are parsed; returns the exit status.
 using Run = std::function<int()>;
 
 /// Input that cannot be used: exit status 2.
@@ -15,7 +15,7 @@ struct BadInput : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Each declares its command and sets `run` where the command is given.
+// Each function declares its command, and sets `run` if that command is given.
 void add_window_command(CLI::App& app, Run& run);
 void add_render_command(CLI::App& app, Run& run);
 void add_merge_command(CLI::App& app, Run& run);

@@ -32,11 +32,11 @@ Checkpoint read_part(const fs::path& file) {
   }
 }
 
-/// All parts as one. Two films at most are in memory.
+/// Merges all parts. At most two films are in memory at a time.
 Checkpoint merged(const std::vector<fs::path>& parts) {
   std::vector<std::pair<fs::path, SampleRanges>> known;
   Checkpoint whole;
-  std::int64_t nanoseconds = 0;  // whole numbers have one sum in any order
+  std::int64_t nanoseconds = 0;  // integers, so that the sum does not depend on order
   for (const fs::path& file : parts) {
     Checkpoint part = read_part(file);
     const SampleRanges ranges = part.film.ranges();
@@ -72,7 +72,7 @@ void print_merged(const MergeOptions& options, const Film& film) {
     std::fprintf(stream, "missing: %s\n", in_words(gap).c_str());
 }
 
-/// To be asked before the parts are read.
+/// Throws BadInput where no file with this ending can be written. Called before the parts are read.
 void check_ending(const fs::path& out) {
   try {
     if (!is_checkpoint_name(out)) check_writable(out);

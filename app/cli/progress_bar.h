@@ -7,7 +7,8 @@
 
 namespace glimt {
 
-/// One line of progress: share done, samples, speed, error and time to go. "100 %" only where the goal is reached.
+/// One line of progress: share done, samples, speed, error and time left. It says "100 %" only once the goal is
+/// reached.
 std::string progress_text(const Progress& progress);
 
 /// Shows progress on stderr in one line, rewritten in place at most ten times a second. The line is cleared at the end.
@@ -15,7 +16,7 @@ class ProgressBar {
  public:
   ~ProgressBar();
   void show(const Progress& progress) { show(progress.fraction, progress_text(progress)); }
-  /// The same for work of another kind, of which only the share done is known.
+  /// The same for other work, of which only the share done is known.
   void show(double fraction);
 
  private:

@@ -23,8 +23,8 @@ std::atomic<bool> stopped{false};
 std::atomic<int> stop_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-/// The first SIGINT (Ctrl-C) or SIGTERM asks for an end after the running pass. The second of its kind ends the
-/// program.
+/// The first SIGINT (Ctrl-C) or SIGTERM stops rendering after the running pass. A second signal of the same kind ends
+/// the program at once.
 void stop_on_signals() {
   struct sigaction action {};
   action.sa_handler = [](int number) {
@@ -42,7 +42,7 @@ Goal goal_of(const RenderOptions& options, const Settings& settings) {
   return {.samples = options.part.value_or(SampleRange{0, settings.spp})};
 }
 
-/// On standard output, or beside it where the picture goes there.
+/// Prints to standard output, or to stderr where the picture goes to standard output.
 void print_summary(const RenderOptions& options, const Film& film, double seconds, const ErrorEstimate& estimate) {
   const double paths = static_cast<double>(film.width()) * film.height() * film.samples();
   std::FILE* const stream = options.out == "-" ? stderr : stdout;
@@ -60,8 +60,8 @@ void warn_of_counters(const Film& film) {
                static_cast<unsigned long long>(film.invalid()), static_cast<unsigned long long>(film.saturated()));
 }
 
-/// Throws BadInput where the film and its picture do not fit into memory, or the threads cannot be had. The system
-/// would hand the memory out, and end the program when it writes to it, an hour later at worst.
+/// Throws BadInput where the film and its picture do not fit into memory, or the threads cannot be started. The system
+/// itself would grant the memory, and kill the program later, when it writes to it.
 void check_limits(const RenderOptions& options, const ImageSize& image) {
   char text[128];
   const std::uint64_t pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
@@ -79,7 +79,7 @@ void check_limits(const RenderOptions& options, const ImageSize& image) {
   }
 }
 
-/// Writes the picture and --stats. Returns false, and says why, where they cannot be written.
+/// Writes the picture and the file of --stats. Where one cannot be written, prints why and returns false.
 bool write_results(const RenderOptions& options, const Checkpoint& result) {
   const auto& [scene, film, seconds, next_check] = result;
   try {
@@ -114,7 +114,7 @@ int run_render(const RenderOptions& options) {
   }
   state.seconds = rendering.seconds;
 
-  // Each of the two is tried where the other fails.
+  // If one of the two fails, the other is still written.
   const bool kept = writer.write(state, rendering), written = write_results(options, state);
   if (!kept || !written) return 1;
   const ErrorEstimate estimate = estimate_error(film);

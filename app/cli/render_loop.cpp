@@ -10,8 +10,8 @@ namespace glimt {
 namespace {
 
 constexpr double pass_seconds = 0.1;
-constexpr int first_check = 8;         // samples before the estimate can be trusted as a goal
-constexpr double estimate_share = 50;  // rendering time over the time that estimates for display take
+constexpr int first_check = 8;         // samples from which the estimate can be trusted as a goal
+constexpr double estimate_share = 50;  // rendering time for each second spent on estimates for display
 
 double seconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -19,13 +19,13 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Samples at which to look at the error next: where it is expected to be reached, as it falls like 1 / samples.
+/// Samples at which to check the error next: where it should be reached, given that it falls as 1 / samples.
 int next_check(int samples, double estimate, double wanted) {
   const double expected = std::ceil(samples * estimate / wanted);
   return static_cast<int>(std::clamp(expected, samples + std::max(1.0, samples / 32.0), 2.0 * samples));
 }
 
-/// Samples that take the wanted time, at least one.
+/// The number of samples that takes the given time, at least one.
 int samples_in(double seconds, double sample_seconds) {
   return static_cast<int>(std::clamp(seconds / sample_seconds, 1.0, 1e9));
 }
@@ -40,8 +40,8 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
   const double pixels = static_cast<double>(film.width()) * film.height();
   ErrorEstimate estimate;
   double estimate_seconds = 0, estimated_at = 0;
-  const bool unlit = scene.max_radiance == 0;  // black is right at once
-  int count = 0;                               // of the last pass
+  const bool unlit = scene.max_radiance == 0;  // black is the exact picture
+  int count = 0;                               // samples in the last pass
   double sample_seconds = 0;
   while (true) {
     const double seconds_left = goal.seconds - result.seconds;
@@ -69,7 +69,7 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
     if (result.reached || (stop && film.samples() > 0)) return result;
     if (count > 0 && after.save) after.save(result);
 
-    // The next pass: no more than four times as long as this one, on whose speed it relies.
+    // The next pass relies on the speed of the last one, so it has at most four times as many samples.
     count =
         count == 0
             ? 1

@@ -17,7 +17,7 @@ std::string option_name(std::string_view key) {
   return name;
 }
 
-/// An option that overrides the scene's value at `path`, as --set does.
+/// Adds an option that overrides one setting of the scene, as --set does.
 struct AddSetting {
   CLI::App& command;
   std::vector<std::string>& overrides;
@@ -49,7 +49,7 @@ struct AddSetting {
   }
 };
 
-/// A validator of CLI11: the message of what `check` throws.
+/// A validator for CLI11: returns the message of what `check` throws.
 template <class Check>
 auto message_of(Check check) {
   return [check](const std::string& text) -> std::string {
@@ -62,7 +62,7 @@ auto message_of(Check check) {
   };
 }
 
-/// "640x480" as overrides of the image's size.
+/// Turns "640x480" into overrides of the image's size.
 void set_size(const std::string& text, std::vector<std::string>& overrides) {
   const auto fields = image_fields();
   const char* next = text.data();
@@ -79,7 +79,7 @@ void set_size(const std::string& text, std::vector<std::string>& overrides) {
   }
 }
 
-/// "64:32" as samples 64 to 95.
+/// Reads "64:32" as samples 64 to 95.
 SampleRange part_of(const std::string& text) {
   SampleRange part;
   const char* const last = text.data() + text.size();

@@ -14,7 +14,7 @@ using Overrides = std::vector<std::string>;
 struct Shot {
   Image image;
   int spp = 0;
-  double seconds = 0;  ///< wall-clock, of rendering
+  double seconds = 0;  ///< wall-clock time of rendering
   double noise = 0;    ///< relmse_estimate
 };
 
@@ -28,8 +28,8 @@ Shot shoot(const ReportPlan& plan, const Scene& scene) {
   return {film.mean(), film.samples(), seconds, relmse_estimate(film)};
 }
 
-/// One picture made three ways: as the report did; the same picture by glimt's best; and the whole picture, caustics
-/// included.
+/// One picture made three ways: by the report's method, the same picture by glimt's best method, and the whole picture
+/// with caustics.
 struct Trio {
   Shot report, same, whole;
 };

@@ -12,9 +12,9 @@
 namespace glimt {
 namespace {
 
-constexpr std::array angles{0, 45, 75};  ///< of the light to the normal, degrees
+constexpr std::array angles{0, 45, 75};  ///< between the light's direction and the normal, degrees
 
-/// Reflects all light: its Fresnel factor is 1.
+/// A metal that reflects all light: its Fresnel factor is 1.
 Material white_metal(double roughness) {
   return Material{.name = "white metal", .type = "conductor"}
       .with(Conductor::preset, Metal::given)

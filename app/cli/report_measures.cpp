@@ -16,7 +16,8 @@ namespace {
 
 constexpr int report_cores = 4;
 
-/// Seconds that each tile of the picture takes on one core: the least of five, free of what else the machine did.
+/// Seconds that each tile of the picture takes on one core. The least of five runs leaves out other load on the
+/// machine.
 std::vector<double> tile_seconds(const CompiledScene& scene, int tile, int spp) {
   std::vector<double> least;
   std::vector<float> rgb(3 * static_cast<std::size_t>(tile * tile * spp));
@@ -35,14 +36,14 @@ std::vector<double> tile_seconds(const CompiledScene& scene, int tile, int spp) 
   return least;
 }
 
-/// Share of the cores' time that is work, where each gets an equal run of tiles.
+/// Share of the cores' time spent working where each core gets an equal run of adjacent tiles.
 double use_in_bands(const std::vector<double>& seconds) {
   std::vector<double> loads(report_cores, 0);
   for (std::size_t i = 0; i < seconds.size(); ++i) loads[i * report_cores / seconds.size()] += seconds[i];
   return std::accumulate(loads.begin(), loads.end(), 0.0) / (report_cores * std::ranges::max(loads));
 }
 
-/// The same where a core that is done takes the next tile.
+/// The same where a core that has finished takes the next tile.
 double use_in_turn(const std::vector<double>& seconds) {
   std::vector<double> loads(report_cores, 0);
   for (const double s : seconds) *std::ranges::min_element(loads) += s;

@@ -7,7 +7,7 @@
 
 namespace glimt {
 
-/// One self-contained HTML page, built from top to bottom. Texts are plain: they are escaped here.
+/// One self-contained HTML page, built from top to bottom. Texts are plain; the page escapes them.
 class Page {
  public:
   explicit Page(const std::string& title);
@@ -18,7 +18,7 @@ class Page {
     Image image;
     std::string caption;
   };
-  /// Pictures side by side, as a screen shows them, held in the page.
+  /// Pictures side by side, as the display shows them. The page holds their data.
   void figure(const std::vector<Picture>& pictures, const std::string& caption);
   using Row = std::vector<std::string>;
   void table(const Row& header, const std::vector<Row>& rows, const std::string& caption);

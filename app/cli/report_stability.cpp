@@ -36,7 +36,7 @@ Material& material(Scene& scene, const std::string& name) {
   return *std::ranges::find(scene.materials, name, &Material::name);
 }
 
-/// A square lamp of that side, as strong as before.
+/// Gives the square lamp another side and the same flux.
 void set_lamp_side(Scene& scene, double side) {
   Polygon& lamp = lamp_of(scene);
   const glm::dvec3 middle = middle_of(lamp);
@@ -46,7 +46,7 @@ void set_lamp_side(Scene& scene, double side) {
   light.set(Light::radiance, light.get(Light::radiance) / (scale * scale));
 }
 
-/// The sphere, made smaller, under the lamp with that gap between them.
+/// Makes the sphere smaller and puts it below the lamp, with this gap between them.
 void set_gap(Scene& scene, double gap) {
   Sphere& sphere = scene.spheres.front();
   sphere.radius = 0.8;
@@ -56,26 +56,26 @@ void set_gap(Scene& scene, double gap) {
 void set_roughness(Scene& scene, double roughness) { material(scene, "clay").set(OrenNayar::roughness, roughness); }
 void set_ior(Scene& scene, double ior) { material(scene, "glass").set(Glass::ior, ior); }
 
-/// A small lamp: its highlight is a few pixels wide where the metal is smooth.
+/// Gold of this roughness under a small lamp, whose highlight is a few pixels wide where the metal is smooth.
 void set_metal(Scene& scene, double roughness) {
   set_lamp_side(scene, 0.2);
   material(scene, "gold").set(Conductor::roughness, roughness);
 }
 
-/// Metal walls meet behind the sphere, so that light goes to and fro between them.
+/// Two metal walls meet behind the sphere, so light goes back and forth between them.
 void set_metal_corner(Scene& scene, double roughness) {
   set_metal(scene, roughness);
   for (Polygon& p : scene.polygons)
     if (p.name == "wall 3" || p.name == "wall 4") p.material = "gold";
 }
 
-/// The sphere is seen in the mirror that the wall on the left is.
+/// The left wall is a mirror in which the sphere is seen.
 void set_metal_in_mirror(Scene& scene, double roughness) {
   set_metal(scene, roughness);
   std::ranges::find(scene.polygons, "wall 2", &Polygon::name)->material = "mirror";
 }
 
-/// The eye so high above a floor of metal.
+/// The eye at this height above a metal floor.
 void set_grazing_eye(Scene& scene, double height) {
   set_metal(scene, 0.2);
   Polygon& floor = *std::ranges::find(scene.polygons, "floor", &Polygon::name);
@@ -143,7 +143,7 @@ Scene scene_at(const ReportPlan& plan, const Difficulty& difficulty, double valu
   return scene;
 }
 
-/// Median and quartiles over seeds of the error that each way leaves at one value.
+/// Adds, for each way to render, the median and quartiles over seeds of its error at one value.
 void add_value(std::vector<ChartCurve>& curves, const ReportPlan& plan, const Difficulty& difficulty, double value) {
   const int seeds = plan.quick ? 2 : 5;
   const CompiledScene truth = compile(scene_at(plan, difficulty, value, ways.back()));

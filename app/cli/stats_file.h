@@ -7,7 +7,7 @@
 
 namespace glimt {
 
-/// What a render was and what it cost, as JSON: every setting by its key, with the samples that were taken as spp;
+/// What was rendered and what it cost, as JSON. It has every setting by its key (spp: the samples that were taken),
 /// scene, width, height, sample_ranges (which samples: "0:64" is 64 from sample 0 on), paths, seconds,
 /// paths_per_second, mean, relmse_estimate (null where unknown), threads, lanes, invalid, saturated and version.
 std::string stats_json(const Scene& scene, const Film& film, const Execution& execution, double seconds);

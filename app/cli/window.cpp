@@ -15,7 +15,7 @@ fs::path default_scene() {
   return fs::exists(installed) ? installed : fs::path("scenes") / "report.toml";
 }
 
-/// Why there can be no window; null where there can.
+/// Why no window can be opened; null where one can.
 const char* obstacle() {
 #ifdef GLIMT_WINDOW
   for (const char* display : {"DISPLAY", "WAYLAND_DISPLAY"})
