@@ -116,7 +116,7 @@ const std::vector<KeyGroup>& table() {
 
 bool is_letter(char key) { return key >= 'a' && key <= 'z'; }
 
-/// Shift tells letters apart; other keys may need it to be typed at all.
+/// Shift matters for letters only: some layouts need it to type other signs.
 bool same(const KeyPress& a, const KeyPress& b) {
   return a.key == b.key && a.control == b.control && (a.shift == b.shift || !is_letter(a.key));
 }

@@ -6,20 +6,21 @@
 
 #include "viewer/state/state.h"
 
-/// The one table of what keys and mouse do. Presses are looked up in it; the help sheet and the status line show it.
+/// The one table of what keys and mouse do. Key presses are looked up in it; the help sheet and the status line show
+/// it.
 namespace glimt {
 
-/// Keys that are no letters, as KeyPress names them.
+/// Keys other than letters, as KeyPress names them.
 constexpr char key_escape = 27, key_space = ' ', key_home = 1, key_f1 = 2;
 
 struct KeyPress {
-  char key = 0;  ///< a letter, digit or sign of ASCII, or one of the above; 0: none that is known
+  char key = 0;  ///< an ASCII letter, digit or sign, or one of the above; 0: unknown
   bool control = false, shift = false;
 };
 
-/// What else keys may be for at the moment.
+/// What else keys are used for at the moment.
 struct KeyContext {
-  bool typing = false;      ///< in a box for text or numbers
+  bool typing = false;      ///< a box for text or numbers is being edited
   bool popup = false;       ///< a menu is open
   bool flying = false;      ///< letters move the camera
   bool navigating = false;  ///< keys move between the controls
@@ -31,15 +32,15 @@ struct KeyBinding {
 
   KeyPress press;
   void (*act)(const ViewerState&, Edits&) = nullptr;
-  When when = When::idle;   ///< idle: not while typing, in a menu or in flight
-  const char* status = "";  ///< what it does, in the status line; empty: it is not shown there
-  bool by_sign = false;     ///< the sign that is typed counts, not the key
+  When when = When::idle;   ///< idle: not while typing, with a menu open or in flight
+  const char* status = "";  ///< its text in the status line; empty: not shown there
+  bool by_sign = false;     ///< matched by the sign that is typed, not by the key
 };
 
 /// A line of the help sheet.
 struct KeyLine {
   const char* what;
-  const char* mouse = "";  ///< what is done with the mouse, or held; empty: the keys bound
+  const char* mouse = "";  ///< what the mouse does, or what is held; empty: the keys alone
   std::vector<KeyBinding> keys;
 };
 
@@ -50,18 +51,18 @@ struct KeyGroup {
 
 std::span<const KeyGroup> key_groups();
 
-/// "Ctrl+Z,  Ctrl+Y"
+/// The line's keys and mouse actions: "Ctrl+Z,  Ctrl+Y".
 std::string keys_text(const KeyLine& line);
 /// The keys that the status line shows.
 std::string status_keys();
 
-/// The key as the table names it. `name` is what the keyboard's layout calls it, and may be null; `position` is what a
-/// US layout has there, in ASCII, 0 for none. Letters outside ASCII (Russian, Greek) count by their position.
+/// The key as the table names it. `name` is its name in the keyboard's layout and may be null. `position` is the ASCII
+/// sign that a US layout has there, 0 for none. Letters outside ASCII (Russian, Greek) count by position.
 char key_letter(const char* name, int position);
 
-/// Does what the table says about a key.
+/// Does what the table says for a key.
 void press_key(const KeyPress& press, const KeyContext& context, const ViewerState& state, Edits& edits);
-/// The same for a sign that was typed, such as "?", which layouts have in different places.
+/// The same for a typed sign such as "?", which keyboard layouts have in different places.
 void type_sign(unsigned sign, const KeyContext& context, const ViewerState& state, Edits& edits);
 
 }  // namespace glimt

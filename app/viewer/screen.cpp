@@ -25,7 +25,7 @@ namespace {
 
 constexpr float worst_pixel_zoom = 16;  ///< framebuffer pixels per picture pixel
 
-/// All that decides what a picture looks like, but for what its textures hold.
+/// All that decides what the window looks like, except the contents of textures.
 std::string bytes_of(const ImDrawData& data) {
   std::string bytes;
   const auto add = [&bytes](const auto* first, int count) {
@@ -93,8 +93,8 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   follow_gesture(edits);
   const ImageSize& size = state.scene.image;
   Layout layout = make_layout(io.DisplaySize.x, io.DisplaySize.y, scale);
-  const Rect sheets = layout.image;  // which may lie over the chart
-  // The chart makes the picture smaller on the screen alone, so that it goes on with the samples there are.
+  const Rect sheets = layout.image;  // may cover the chart
+  // The chart only shrinks the picture on the screen. The image keeps its size, and so its samples.
   edits.room = room_of(layout, ratio);
   if (state.chart.view.shown) layout = with_chart(layout, size.width, size.height, scale);
   chart_ = layout.chart;
@@ -207,7 +207,7 @@ void Screen::draw_tabs(const ViewerState& state, Edits& edits) {
       {"Estimator", "tab.estimator", draw_estimator_panel},
       {"Scene", "tab.scene", [](const ViewerState& s, Edits&) { draw_scene_panel(s); }},
   };
-  // A click on an object in the picture brings its panel up.
+  // A click on an object in the picture opens the objects' tab.
   const bool to_objects = state.selected && state.selected != selected_;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style::scaled(7), style::scaled(5)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {style::scaled(2), style::scaled(4)});
@@ -222,7 +222,7 @@ void Screen::draw_tabs(const ViewerState& state, Edits& edits) {
     ImGui::PopStyleVar(2);
     note_widget(tab.name);
     if (!open) continue;
-    // What does not fit scrolls, below progress and buttons, which stay.
+    // Only the tab's contents scroll. Progress and buttons stay above.
     ImGui::BeginChild("knobs");
     ImGui::Dummy({0, style::scaled(1)});
     tab.draw(state, edits);

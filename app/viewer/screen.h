@@ -11,12 +11,11 @@
 
 namespace glimt {
 
-/// The room for the picture in a window of that size on an ordinary screen, without the chart; pixels.
+/// The free space for the picture in a window of this size on an ordinary screen, without the chart; pixels.
 ImageSize room_in_window(int width, int height);
 
-/// Draws the window's contents with ImGui and OpenGL 2 into the current context, whoever made it. Owns the ImGui
-/// context; sizes, mouse and keys are set in ImGui::GetIO() by the platform before each
-/// lay_out().
+/// Draws the window's contents with ImGui and OpenGL 2 into the current OpenGL context. Owns the ImGui context. The
+/// platform sets sizes, mouse and keys in ImGui::GetIO() before each lay_out().
 class Screen {
  public:
   Screen();
@@ -24,21 +23,21 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Lays out the next picture and adds what was asked for to `edits`. `scale` is window coordinates per unit of
-  /// design.
+  /// Lays out the window's next picture and adds what the person asked for to `edits`. `scale` is window coordinates
+  /// per design unit.
   void lay_out(const ViewerState& state, float scale, Edits& edits);
-  /// Draws what was laid out, unless the last picture looked the same; true where it drew.
+  /// Draws what was laid out, unless it looks like the last picture. Returns true if it drew.
   bool paint();
-  /// The last picture is lost.
+  /// Makes the next paint() draw: what the window showed is lost.
   void forget_picture() { painted_.clear(); }
 
-  /// Where the controls of the last lay_out() are.
+  /// Where the last lay_out() put the controls.
   const WidgetRects& widgets() const { return widgets_; }
 
-  /// Keys move the camera.
+  /// Whether keys move the camera.
   bool flying() const { return tool_.flying(); }
-  /// A file dropped into the window: a scene, a picture with its scene, or a reference, which PFM files and pictures
-  /// dropped onto the chart are.
+  /// Opens a file that was dropped into the window, a scene or a picture with its scene. A PFM file, or an EXR dropped
+  /// onto the chart, becomes the reference.
   void drop(const std::filesystem::path& file, Edits& edits) const;
 
  private:

@@ -21,10 +21,10 @@
 namespace glimt {
 namespace {
 
-/// ImGui needs some pictures after the last event until menus and tooltips stand.
+/// After the last event, ImGui needs some pictures until menus and tooltips have their place.
 constexpr int pictures_to_settle = 6;
-/// So long, in seconds, a picture waits for the image that answers an edit: mostly it comes sooner, and the two are
-/// painted as one.
+/// How long the window waits for the image that answers an edit, seconds. The image mostly comes sooner, and both are
+/// painted at once.
 constexpr double patience = 0.006;
 
 /// What has come in from the window since the last picture.
@@ -41,7 +41,7 @@ KeyContext context_of(GLFWwindow* window) {
   const ImGuiIO& io = ImGui::GetIO();
   return {.typing = io.WantTextInput,
           .popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel),
-          // From the moment on at which the right button goes down.
+          // From the press of the right button on, before the screen has seen it.
           .flying = inbox(window).screen->flying() || glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS,
           .navigating = io.NavVisible};
 }
@@ -56,7 +56,7 @@ char key_of(int key, int scancode) {
       return key_home;
     case GLFW_KEY_F1:
       return key_f1;
-    default:  // GLFW numbers the other keys by what a US layout has there, in ASCII
+    default:  // GLFW's numbers of other keys are the ASCII signs that a US layout has there
       return key_letter(glfwGetKeyName(key, scancode), key);
   }
 }
@@ -102,7 +102,7 @@ void set_callbacks(GLFWwindow* window, Inbox& in) {
   glfwSetWindowCloseCallback(window, [](GLFWwindow* w) { inbox(w).edits.quit = true; });
 }
 
-/// ImGui's platform side, which passes events on to the callbacks that were there before.
+/// ImGui's GLFW backend. It passes events on to the callbacks that were set before.
 struct Platform {
   explicit Platform(GLFWwindow* window) {
     ImGui_ImplGlfw_InitForOpenGL(window, true);
@@ -113,7 +113,8 @@ struct Platform {
   Platform& operator=(const Platform&) = delete;
 };
 
-/// Sleeps until there is something to draw and the display can show it. `fitting`: before long, without an event.
+/// Sleeps until there is something to draw and the display can show it. With `fitting` it returns soon, even without an
+/// event.
 void wait(double next_picture, bool settled, bool fitting) {
   constexpr double while_fitting = 0.02;  // seconds
   if (settled && fitting)
@@ -124,10 +125,10 @@ void wait(double next_picture, bool settled, bool fitting) {
   glfwPollEvents();
 }
 
-/// The picture is of the scene as edited.
+/// Whether the picture shows the scene as edited.
 bool answered(const ViewerState& state) { return state.frame && state.frame->version >= state.version; }
 
-/// Remembers the window for its next start. Where that cannot be written, the program goes on.
+/// Saves what the window remembers for its next start. If it cannot be written, the program goes on.
 void remember(const Window& window, const ViewerState& state) {
   const auto file = window_settings_file();
   if (file.empty()) return;
@@ -179,7 +180,7 @@ void run(const std::filesystem::path& scene_file) {
     const double start = glfwGetTime();
     ImGui_ImplGlfw_NewFrame();
     screen.lay_out(controller.state(), window.scale(), in.edits);
-    // Before the picture is painted, so that the answer to an edit is rendered meanwhile.
+    // Edits are applied before painting, so that rendering their answer goes on meanwhile.
     const bool quit = in.edits.quit;
     const std::uint64_t version = controller.state().version;
     controller.apply(std::exchange(in.edits, {}));
@@ -188,7 +189,7 @@ void run(const std::filesystem::path& scene_file) {
     const bool waits = start < patient_until && !answered(controller.state());
     if (waits) unsettled = std::max(unsettled, 1);
     const bool painted = !waits && screen.paint();
-    // Where nothing changes on the screen, edits are taken in sooner than it can show pictures.
+    // Where nothing on the screen changed, the next edits are taken in sooner than the display can show pictures.
     next_picture = start + window.frame_time() * (painted ? 1 : 0.125);
     if (painted) {
       painted_at = start;

@@ -41,7 +41,7 @@ Window::Window(int width_wanted, int height_wanted) {
       glfwSetWindowSize(handle_, std::min(width, free_width), std::min(height, free_height));
     }
   }
-  // Less would cut off the column's numbers, or leave no room for the picture.
+  // A smaller window would cut off the column's numbers or leave no room for the picture.
   const auto least = [this](float length) { return static_cast<int>(std::lround(length * scale())); };
   glfwSetWindowSizeLimits(handle_, least(704), least(560), GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwShowWindow(handle_);
@@ -54,7 +54,7 @@ Window::~Window() { glfwDestroyWindow(handle_); }
 bool Window::hidden() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(handle_, &width, &height);
-  // Not every window manager says that it has minimised a window that it takes away.
+  // Some window managers hide a minimised window without saying that it is minimised.
   return width == 0 || height == 0 || glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE ||
          glfwGetWindowAttrib(handle_, GLFW_VISIBLE) == GLFW_FALSE;
 }
@@ -78,7 +78,7 @@ float Window::scale() const {
 double Window::frame_time() const {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
-  // A little less than the display's period, so that waiting here and for the display do not add up.
+  // A little less than the display's period, so that this wait and the buffer swap's do not add up.
   return 0.9 / (mode != nullptr && mode->refreshRate > 0 ? mode->refreshRate : 60);
 }
 

@@ -4,7 +4,7 @@ struct GLFWwindow;
 
 namespace glimt {
 
-/// The window system. Throws std::runtime_error where there is none.
+/// Starts and ends the window system. Throws std::runtime_error where there is none.
 class WindowSystem {
  public:
   WindowSystem();
@@ -16,21 +16,22 @@ class WindowSystem {
 /// A window with an OpenGL context, which it makes current.
 class Window {
  public:
-  /// Of this size, in units of design, or as large as the screen allows. Throws std::runtime_error where none can be
-  /// opened.
+  /// Opens a window of this size in design units, or as large as the screen allows. Throws std::runtime_error where it
+  /// cannot be opened.
   Window(int width, int height);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   GLFWwindow* handle() const { return handle_; }
-  /// Nothing can be seen, for example when minimised.
+  /// Whether nothing of the window can be seen, for example when it is minimised.
   bool hidden() const;
-  /// In units of design.
+  /// Its size in design units.
   void size(int& width, int& height) const;
-  /// Window coordinates per unit of design: what the screen asks for, less what the framebuffer does already.
+  /// Window coordinates per design unit: the scale that the screen asks for, divided by what the framebuffer has
+  /// already.
   float scale() const;
-  /// Least time between two pictures, seconds: the display shows no more.
+  /// Least time between two pictures, seconds; the display shows no more.
   double frame_time() const;
 
  private:

@@ -9,7 +9,7 @@
 namespace glimt {
 namespace {
 
-constexpr float list_share = 0.44F, widest_list = 440;  ///< of the panel, design units
+constexpr float list_share = 0.44F, widest_list = 440;  ///< share of the panel; design units
 
 std::vector<PlotPoint> points_of(const Curve& curve, ErrorKind kind, Across axis) {
   std::vector<PlotPoint> points;
@@ -36,7 +36,7 @@ std::vector<Drawn> drawn_curves(const ChartState& chart) {
   return drawn;
 }
 
-/// Some curves at a time in a layer of their own: ImGui's lists, one to a layer, hold 2^16 vertices.
+/// Draws a few curves in each layer. Every layer has its own ImGui draw list, which holds at most 2^16 vertices.
 void draw_in_layers(const Plot& plot, const Rect& place, const std::vector<Drawn>& drawn) {
   constexpr std::size_t in_one = 8;
   for (std::size_t first = 0; first < drawn.size(); first += in_one) {
@@ -51,7 +51,7 @@ void draw_in_layers(const Plot& plot, const Rect& place, const std::vector<Drawn
   }
 }
 
-/// Returns what is under the mouse.
+/// Draws the plot and returns the point under the mouse.
 std::optional<PlotPoint> draw_error_plot(const ChartState& chart, const Rect& place) {
   const std::vector<Drawn> drawn = drawn_curves(chart);
   std::vector<std::vector<PlotPoint>> all;
@@ -102,7 +102,7 @@ void draw_error_page(const ViewerState& state, const std::optional<PlotPoint>& p
 
 void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits) {
   begin_fixed_window("chart", place, 12, 8);
-  // The list is at the right of a wide panel and below in a tall one.
+  // The list is at the right in a wide panel and at the bottom of a tall one.
   const ImVec2 at = ImGui::GetCursorScreenPos(), free = ImGui::GetContentRegionAvail();
   const float gap = style::scaled(14);
   const bool wide = free.x > free.y;
@@ -111,7 +111,7 @@ void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits)
       wide ? Rect{at.x, at.y, free.x - list - gap, free.y} : Rect{at.x, at.y, free.x, free.y - list - gap};
   const ImVec2 list_at = wide ? ImVec2{at.x + free.x - list, at.y} : ImVec2{at.x, at.y + free.y - list};
 
-  // Which page is open is known only once the tabs are drawn.
+  // The plot is drawn before the tabs, so it uses the page that was open in the last picture.
   enum Page { error, advice, families };
   ImGuiStorage& memory = *ImGui::GetStateStorage();
   const ImGuiID page = ImGui::GetID("page");

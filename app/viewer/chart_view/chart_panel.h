@@ -9,30 +9,30 @@
 
 namespace glimt {
 
-/// Error against time of all that was tried, the advisor and the families of light, beside or below the picture.
+/// The chart beside or below the picture: error against time of all that was tried, the advisor, the families of light.
 void draw_chart_panel(const ViewerState& state, const Rect& place, Edits& edits);
 
-// Its parts, drawn into the current ImGui window.
+// The panel's parts, drawn into the current ImGui window.
 
-/// The reference: what it is, and buttons to make, open and drop one.
+/// The reference's name, and buttons to make, open and drop one.
 void draw_reference_controls(const ViewerState& state, Edits& edits);
 
-/// Every curve with its error, time and efficiency: those it has come to, or those under the mouse.
+/// Every curve with its error, time and efficiency: the latest ones, or those at the mouse.
 void draw_curve_list(const ChartState& chart, const std::optional<PlotPoint>& pointer, Edits& edits);
 
-/// How many shadow rays pay: the answer, and the efficiency against their number.
+/// How many shadow rays pay: the answer, and a plot of efficiency against their number.
 void draw_advice(const ViewerState& state, Edits& edits);
 void draw_advice_plot(const ChartState& chart, const Rect& place);
 
-/// Which light the remaining error is of: the answer, and a bar for each family.
+/// Which light the remaining error comes from: the answer, and a bar for each family.
 void draw_families(const ViewerState& state, Edits& edits);
 void draw_families_plot(const ViewerState& state, const Rect& place);
 
-/// While something is measured says so, with a button to stop it, and returns true.
+/// While a measurement runs, says so, draws a button to stop it, and returns true.
 bool draw_measuring(const ChartState& chart, Edits& edits);
-/// Says so where what was measured is another scene than the one shown; where rendering stops does not count.
+/// Says so if the measured scene differs from the one shown, in more than where rendering stops.
 void draw_age(Scene measured, const Scene& shown);
-/// A share as whole percent: "62 %".
+/// A share in whole percent: "62 %".
 std::string percent(double share);
 
 }  // namespace glimt

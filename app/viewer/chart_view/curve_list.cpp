@@ -10,7 +10,7 @@ namespace {
 
 constexpr float sample_width = 30, number_width = 62, cross_width = 20;  ///< design units
 
-/// Where a row's parts begin and end, screen coordinates.
+/// Where the parts of a row begin and end, screen coordinates.
 struct Columns {
   float sample, label, label_end;
   std::array<float, 3> numbers;  ///< right ends
@@ -36,7 +36,7 @@ constexpr const char* dash = "\u2013";
 
 std::string number(const std::optional<double>& value) { return value ? short_number(*value) : dash; }
 
-/// "4.2x", and from a thousand on "1.1e3x".
+/// "4.2x"; from a thousand on "1.1e3x".
 std::string ratio_text(double ratio) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1e", ratio);
@@ -45,7 +45,7 @@ std::string ratio_text(double ratio) {
   return (ratio < 1000 ? short_number(ratio) : large) + "\u00D7";
 }
 
-/// What the list says of a curve.
+/// A curve's error, time or samples, and efficiency, as text.
 std::array<std::string, 3> numbers_of(const ChartState& chart, const Curve& curve,
                                       const std::optional<PlotPoint>& pointer) {
   const ErrorKind kind = error_kind(curve);
@@ -69,7 +69,7 @@ void draw_head(const ChartState& chart, const std::optional<PlotPoint>& pointer)
                                  : "So far";
   ImGui::GetWindowDrawList()->AddText({columns.sample, y}, style::muted, at.c_str());
   const std::array<const char*, 3> heads{"relMSE", by_time ? "seconds" : "samples", "efficiency"};
-  // With the mouse on the plot, the place takes the room of the first head.
+  // While the mouse is on the plot, its place is written instead of the first head.
   for (std::size_t i = pointer ? 1 : 0; i < heads.size(); ++i)
     text_to_right(columns.numbers.at(i), y, style::muted, heads.at(i));
   ImGui::Dummy({0, ImGui::GetFontSize()});

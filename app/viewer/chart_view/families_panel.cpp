@@ -12,11 +12,11 @@
 namespace glimt {
 namespace {
 
-constexpr ImU32 track = IM_COL32(255, 255, 255, 14);  ///< of a bar, to its 100 %
+constexpr ImU32 track = IM_COL32(255, 255, 255, 14);  ///< behind a bar, up to 100 %
 
 ImU32 colour_of(std::size_t family) { return curve_style(family).colour; }
 
-/// The name at the left and the value at the right edge.
+/// A row with the name at the left and the value at the right.
 void family_row(const Family& family, std::size_t number) {
   const FamilyText& text = family_texts.at(number);
   const std::string spread = " (" + short_number(std::round(100 * family.low)) + " to " +
@@ -51,7 +51,7 @@ void draw_answer(const Families& families) {
   note_widget("families.samples");
 }
 
-/// A bar as long as the share of `width`, in the middle of a line of text, and behind its track the value.
+/// A track of length `width`, filled up to the share, with the value to its right. It is centred on a line of text.
 void draw_bar(const ImVec2& at, float width, float height, double share, ImU32 colour, const std::string& value,
               ImU32 text) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -61,7 +61,7 @@ void draw_bar(const ImVec2& at, float width, float height, double share, ImU32 c
   list.AddText({at.x + width + style::scaled(8), at.y}, text, value.c_str());
 }
 
-/// The light that no technique looks for.
+/// Names the light that no technique samples directly.
 void draw_chance(const ViewerState& state) {
   const std::string light = state.compiled ? light_by_chance(state.compiled->emitters) : "";
   if (!light.empty()) muted_text("Chance alone finds: " + light + ".");

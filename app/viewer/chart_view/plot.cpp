@@ -14,7 +14,7 @@
 namespace glimt {
 namespace {
 
-// Okabe and Ito's colours, brightened for a dark ground. As in svg_chart.cpp, the numbers of colours, dashes and
+// Okabe and Ito's colours, brighter for a dark background. As in svg_chart.cpp, the numbers of colours, dashes and
 // markers have no common divisor.
 constexpr std::array colours{IM_COL32(110, 175, 235, 255), IM_COL32(240, 125, 50, 255),  IM_COL32(40, 190, 140, 255),
                              IM_COL32(235, 235, 235, 255), IM_COL32(225, 145, 190, 255), IM_COL32(60, 130, 200, 255),
@@ -47,7 +47,7 @@ void draw_marker(ImDrawList& list, const ImVec2& at, const CurveStyle& style) {
   }
 }
 
-/// A marker with a hole.
+/// Draws a marker with a hole.
 void draw_open_marker(ImDrawList& list, const ImVec2& at, const CurveStyle& style) {
   draw_marker(list, at, style);
   list.AddCircleFilled(at, style::scaled(marker_size * 0.62F), style::well, 10);
@@ -59,7 +59,7 @@ ImVec2 between(const ImVec2& a, const ImVec2& b, float share) {
   return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
 }
 
-/// The line in dashes that go on from one piece to the next.
+/// Draws a dashed line whose pattern continues from one piece to the next.
 void draw_dashed(ImDrawList& list, const std::vector<ImVec2>& places, const CurveStyle& style, float width) {
   if (style.dashes.empty()) {
     list.AddPolyline(places.data(), static_cast<int>(places.size()), style.colour, ImDrawFlags_None, width);
@@ -76,13 +76,14 @@ void draw_dashed(ImDrawList& list, const std::vector<ImVec2>& places, const Curv
                      style.colour, width);
       left -= end - done;
       done = end;
-      // A rest too small to be added to `done` would never end.
+      // A remainder too small to change `done` would loop for ever.
       if (left < 0.01F) left = style::scaled(style.dashes[++dash % style.dashes.size()]);
     }
   }
 }
 
-/// log10 of the ends of an axis for values between low and high: with a margin, and at least an octave.
+/// log10 of the ends of an axis, from log10 of the lowest and highest value: with a margin, and at least an octave
+/// apart.
 std::pair<double, double> ends(double low, double high) {
   if (low > high) return {-1, 1};
   const double margin = std::max(0.04 * (high - low), 0.15 - (high - low) / 2);
@@ -143,7 +144,7 @@ void Plot::draw_axes(const std::string& across, const std::string& up) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float right = inner_.x + inner_.width, bottom = inner_.y + inner_.height, gap = style::scaled(5);
   const ImU32 text = style::muted;
-  float free = inner_.x - style::scaled(20);  // of numbers so far
+  float free = inner_.x - style::scaled(20);  // right end of the numbers so far
   for (const LogTick& tick : logarithmic_ticks(left_, right_)) {
     const float x = place_of({tick.value, 1}).x;
     list.AddLine({x, inner_.y}, {x, bottom}, tick.labelled ? grid_strong : grid);
@@ -173,7 +174,7 @@ void Plot::draw_guide(const std::string& title) const {
   const CurveStyle style{guide, {1, 5}, 0};
   const int last = static_cast<int>(std::floor(right_ + top_));
   for (int power = static_cast<int>(std::ceil(left_ + bottom_)); power <= last; ++power) {
-    // From the left or the upper edge to the right or the lower one.
+    // Each line runs from the left or upper edge to the right or lower one.
     const double x0 = std::max(left_, power - top_), x1 = std::min(right_, power - bottom_);
     const auto at = [&](double x) { return place_of({std::pow(10, x), std::pow(10, power - x)}); };
     draw_dashed(list, {at(x0), at(x1)}, style, style::scaled(1));
@@ -244,7 +245,7 @@ std::string short_number(double value) {
   const char* format = size >= 1000 && size < 1e7 ? "%.0f" : size < 1e-3 && size > 0 ? "%.1e" : "%.3g";
   std::snprintf(text, sizeof text, format, value);
   std::string result = text;
-  // "1.2e-05" is longer than it need be.
+  // "1.2e-05" becomes "1.2e-5".
   if (const auto e = result.find("e-0"); e != std::string::npos) result.erase(e + 2, 1);
   return result;
 }

@@ -14,7 +14,7 @@
 namespace glimt {
 namespace {
 
-constexpr double widest_exposure = 8;  ///< EV, of the slider; more can be typed
+constexpr double widest_exposure = 8;  ///< of the slider, EV; more can be typed
 constexpr const char* only_display = " Only the display changes, rendering goes on.";
 constexpr std::string_view dither_key = "dither";
 
@@ -24,7 +24,7 @@ std::string number(double value) {
   return text;
 }
 
-/// A switch at the end of a row; `field` is a choice between on and off.
+/// A check box at the end of a row; `field` chooses between on and off.
 bool dither_switch(const Field<Display>& field, Display& display) {
   bool on = display.dither == Dither::on;
   ImGui::SameLine(0, style::scaled(8));
@@ -35,7 +35,7 @@ bool dither_switch(const Field<Display>& field, Display& display) {
   return changed;
 }
 
-/// The scale of the view.
+/// The view's colour scale.
 void draw_legend(const Display& display) {
   ColourScale scale = colour_scale(display.view);
   if (display.view == View::samples) {

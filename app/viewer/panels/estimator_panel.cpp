@@ -14,7 +14,7 @@
 namespace glimt {
 namespace {
 
-/// True where a size was chosen; `fits` where it is that of the room for the picture in the window.
+/// Returns true if a size was chosen. `fits` says whether the size follows the free space in the window.
 bool edit_size(const ViewerState& state, ImageSize& size, bool& fits) {
   const int most = static_cast<int>(image_fields()[0].max);
   constexpr std::array<ImageSize, 5> usual{{{400, 400}, {800, 600}, {1024, 1024}, {1280, 720}, {1920, 1080}}};
@@ -53,7 +53,7 @@ bool edit_size(const ViewerState& state, ImageSize& size, bool& fits) {
 }  // namespace
 
 void draw_estimator_panel(const ViewerState& state, Edits& edits) {
-  // So many rows that they stand closer than elsewhere, or a small window would not hold them.
+  // The rows stand closer than elsewhere, because a small window would not hold so many.
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, 0.3F * style.ItemSpacing.y});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, 0.75F * style.FramePadding.y});

@@ -9,7 +9,7 @@
 
 namespace glimt {
 
-/// The sheet over the picture on which a file is chosen.
+/// The sheet over the picture where a person chooses a file.
 class FilesPanel {
  public:
   enum class Purpose { none, open, save, reference };

@@ -21,7 +21,7 @@ const Material& material_of(const Scene& scene, const ObjectId& object) {
   return *find_material(scene, material_name_of(scene, object));
 }
 
-/// A list of all objects with what they are made of.
+/// A list of all objects with their materials.
 void draw_list(const ViewerState& state, Edits& edits) {
   const auto all = objects_of(state.scene);
   const int rows = std::min(static_cast<int>(all.size()), most_rows);
@@ -55,7 +55,7 @@ void draw_list(const ViewerState& state, Edits& edits) {
   ImGui::PopStyleColor();
 }
 
-/// The menu of material types; those that the object cannot be of are greyed, with the reason.
+/// The menu of material types. Types that the object cannot have are greyed, with the reason.
 bool edit_type(const Scene& scene, const ObjectId& object, Material& material) {
   const std::string before = material.type;
   begin_row("Material", "What the object is made of. One that shared its material gets one of its own.");

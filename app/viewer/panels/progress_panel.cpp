@@ -34,22 +34,22 @@ std::string duration(double seconds) {
 
 constexpr const char* dash = "\u2013";
 
-/// Why the error is only a bound; empty where it is not.
+/// Why the error is only a lower bound; empty where it is not.
 std::string unseen_text(const Unseen& unseen) {
   if (unseen.light.empty()) return {};
   return number("\n\nUp to %.2g %% of the light may be missing.", 100 * unseen.flux) +
          " Chance alone finds it, and has found too little so far: " + unseen.light + ".";
 }
 
-/// Of the way to the target, 0..1; the error falls as 1 / samples.
+/// Share of the way to the target, 0..1. The error falls as 1 / samples.
 double share_done(const Settings& settings, const Frame& frame) {
   if (frame.finished) return 1;
   if (settings.target_error == 0) return std::min(1.0, static_cast<double>(frame.samples) / settings.spp);
   return frame.samples > 1 ? std::min(1.0, settings.target_error / frame.estimate.at_most()) : 0;
 }
 
-/// The error of the picture so far against time, both logarithmic, in what is left of the row. An error that falls as
-/// 1 / time is a straight line. Where there is a target, the share of the way to it is filled.
+/// Draws the picture's error against time, both logarithmic, in the rest of the row. An error that falls as 1 / time is
+/// a straight line. Where there is a target, the share of the way to it is filled.
 void draw_trend(const ViewerState& state, const Frame& frame, bool ends, double share) {
   ImGui::SameLine(0, style::scaled(8));
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
@@ -96,7 +96,7 @@ bool choose_stop(StopAt& stop) {
   return static_cast<std::size_t>(stop) != chosen;
 }
 
-/// Where to stop: never, or at a number that stands beside the choice.
+/// Where to stop: never, or at the number beside the choice.
 void edit_goal(const ViewerState& state, Edits& edits) {
   RenderGoal goal = state.goal;
   begin_row("Stop at",
@@ -114,7 +114,7 @@ void edit_goal(const ViewerState& state, Edits& edits) {
   if (before == StopAt::samples) {
     if (slider(goal.samples, 1, max_spp, true)) {
       changed = true;
-      // The mouse goes by powers of two; others can be typed.
+      // The mouse chooses powers of two; other numbers can be typed.
       if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) goal.samples = 1 << std::lround(std::log2(goal.samples));
     }
     note_widget("stop_at.number");

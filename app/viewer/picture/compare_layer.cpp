@@ -13,7 +13,7 @@
 namespace glimt {
 namespace {
 
-/// A label over the picture, at the left or right of a place.
+/// A label over the picture, left or right of x.
 void draw_label(const std::string& text, float x, float y, bool to_left) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str()), pad{style::scaled(8), style::scaled(4)};
   const float left = to_left ? x - size.x - 2 * pad.x : x;
@@ -23,7 +23,7 @@ void draw_label(const std::string& text, float x, float y, bool to_left) {
   list.AddText({left + pad.x, y + pad.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
-/// The part of the picture that can be seen.
+/// The visible part of the picture.
 Rect visible(const Rect& picture, const Rect& area) {
   const float x = std::max(picture.x, area.x), y = std::max(picture.y, area.y);
   return {x, y, std::min(picture.x + picture.width, area.x + area.width) - x,
@@ -39,7 +39,7 @@ float line_of(const ViewerState& state, const Rect& seen, const Placement& pictu
 std::shared_ptr<const Frame> CompareLayer::compared(const std::shared_ptr<const Frame>& a,
                                                     const std::shared_ptr<const Frame>& b, CompareView view) {
   if (a == a_ && b == b_ && view == view_) return result_;
-  // A preview has fewer pixels: the comparison before it stays.
+  // A preview has fewer pixels, so the last comparison stays.
   if (!same_size(a->mean, b->mean)) return result_;
   auto result = std::make_shared<Frame>();
   result->size = a->size;

@@ -6,13 +6,13 @@
 
 namespace glimt {
 
-/// What the comparison draws over the picture: B beside the split's line or alone, or how A and B differ.
+/// Draws the comparison over the picture: B at one side of the split or alone, or how A and B differ.
 class CompareLayer {
  public:
   void draw(const ViewerState& state, const Rect& area, const Placement& picture);
-  /// As ImageView's.
+  /// As ImageView::prepare.
   bool prepare() { return image_.prepare(); }
-  /// The line of the split, which can be dragged. Above the picture, below all panels.
+  /// Draws the split's line, which can be dragged, above the picture and below all panels.
   void draw_line(const ViewerState& state, const Rect& area, const Placement& picture, Edits& edits);
 
  private:
@@ -20,7 +20,7 @@ class CompareLayer {
                                         CompareView view);
 
   ImageView image_;
-  std::shared_ptr<const Frame> a_, b_, result_;  ///< of the last comparison
+  std::shared_ptr<const Frame> a_, b_, result_;  ///< pictures and result of the last comparison
   CompareView view_ = CompareView::off;
 };
 

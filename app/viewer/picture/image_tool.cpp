@@ -15,14 +15,14 @@
 namespace glimt {
 namespace {
 
-constexpr double dolly_step = 0.9;                   ///< distance after a notch of the wheel over the one before
-constexpr double pace_step = 1.25;                   ///< of the flight, a notch
-constexpr double least_pace = 1e-4, most_pace = 10;  ///< sizes of the scene a second
-constexpr float longest_picture = 0.1F;              ///< that a flight goes on in, seconds
-constexpr float zoom_step = 1.25F;                   ///< of the picture, a notch
+constexpr double dolly_step = 0.9;                   ///< factor of the distance for one notch of the wheel
+constexpr double pace_step = 1.25;                   ///< factor of the flight's speed for one notch
+constexpr double least_pace = 1e-4, most_pace = 10;  ///< sizes of the scene per second
+constexpr float longest_picture = 0.1F;              ///< longest time step of a flight, seconds
+constexpr float zoom_step = 1.25F;                   ///< factor of the picture's zoom for one notch
 constexpr float least_zoom = 0.05F, most_zoom = 64;  ///< framebuffer pixels per picture pixel
 
-/// A place of the window in pixels of the image.
+/// A point of the window in pixels of the image.
 glm::dvec2 image_place(const ViewerState& state, const Placement& place, const ImVec2& p) {
   const Rect& r = place.rect;
   return {(p.x - r.x) / r.width * static_cast<float>(state.scene.image.width),
@@ -61,7 +61,7 @@ void ImageTool::take_mouse(const ViewerState& state, const Rect& area, const Pla
 
 void ImageTool::begin(Drag drag) {
   drag_ = drag;
-  // Arrow keys move either the camera or from control to control.
+  // Arrow keys either move the camera or go from control to control.
   ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
   if (flying() && (flags & ImGuiConfigFlags_NavEnableKeyboard) != 0) {
     flags &= ~ImGuiConfigFlags_NavEnableKeyboard;
@@ -105,20 +105,21 @@ void ImageTool::drag(const ViewerState& state, const Rect& area, const Placement
     return;
   }
   if (drag_ == Drag::orbit) {
-    // Once across the picture's height is half a turn.
+    // A drag across the picture's height is half a turn.
     const double angle = std::numbers::pi / std::min(place.rect.height, area.height);
     edits.edit(state).camera = approach_orbit(state.scene, grip_, -by.x * angle, -by.y * angle);
     return;
   }
   const CameraView view(camera, state.scene.image);
-  const double pixel = view.pixel * state.scene.image.height / place.rect.height;  // of the window, at distance 1
+  const double pixel =
+      view.pixel * state.scene.image.height / place.rect.height;  // size of a window pixel at distance 1
   if (drag_ == Drag::turn || flying()) {
-    // A picture that is turned follows the mouse; a view that flies looks where the mouse goes.
+    // A drag moves the picture with the mouse. In flight the view turns towards the mouse instead.
     const double angle = flying() ? -pixel : pixel;
     edits.edit(state).camera = approach_orbit(state.scene, camera.eye, by.x * angle, by.y * angle);
     return;
   }
-  // So far that the point which was taken hold of stays under the mouse.
+  // The step keeps the point where the button was pressed under the mouse.
   const double metres = view.depth(grip_) * pixel;
   const glm::dvec3 step = (view.right * static_cast<double>(by.x) - view.up * static_cast<double>(by.y)) * metres;
   if (drag_ == Drag::pan) {

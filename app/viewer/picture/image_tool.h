@@ -10,20 +10,20 @@
 
 namespace glimt {
 
-/// What mouse and keys do on the picture: they select, move the camera, a sphere or the picture; and the outline of
-/// what is selected.
+/// Mouse and keys on the picture: they select an object, and move the camera, a sphere or the picture. Also draws the
+/// outline of the selected object.
 class ImageTool {
  public:
   const Zoom& zoom() const { return zoom_; }
   void fit() { zoom_ = {}; }
   void set_zoom(const Zoom& zoom) { zoom_ = zoom; }
 
-  /// The right button is held, and keys move the camera.
+  /// Whether the right button is held, so that keys move the camera.
   bool flying() const { return drag_ == Drag::fly; }
-  /// Metres a second.
+  /// Speed of the flight, metres per second.
   double speed(const ViewerState& state) const;
 
-  /// Takes the mouse's doings of this picture of the window, where no panel does.
+  /// Handles the mouse for this picture of the window, unless a panel does.
   void take_mouse(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits);
   void draw_outline(const ViewerState& state, const Rect& area, const Placement& place);
 
@@ -38,11 +38,11 @@ class ImageTool {
 
   Zoom zoom_;
   Drag drag_ = Drag::none;
-  std::optional<ObjectId> under_;  ///< what the button was pressed on
-  glm::dvec3 grip_{0};             ///< the world point there, or look_at
-  bool other_view_ = false;        ///< Alt was held, for the view that a drag does not change otherwise
-  bool navigates_ = false;         ///< keys will move from control to control again after the flight
-  double pace_ = 0.125;            ///< of the flight, sizes of the scene a second
+  std::optional<ObjectId> under_;  ///< the object at which the button was pressed
+  glm::dvec3 grip_{0};             ///< the world point at which it was pressed, or look_at
+  bool other_view_ = false;        ///< Alt was held: turn instead of orbit, or orbit instead of turn
+  bool navigates_ = false;         ///< after the flight, keys move between controls again
+  double pace_ = 0.125;            ///< speed of the flight, sizes of the scene per second
   std::optional<ObjectId> outlined_;
   std::uint64_t outlined_version_ = 0;
   std::vector<OutlinePiece> outline_;

@@ -34,7 +34,7 @@ bool ImageView::prepare() {
   glBindTexture(GL_TEXTURE_2D, texture_);
   const auto image = std::exchange(waiting_, nullptr);
   if (image) upload(*image);
-  // A preview has fewer pixels than the picture that it stands for.
+  // A preview has fewer pixels than its frame, so it is interpolated.
   const GLint filter = whole_ && width_ == frame_->size.width ? GL_NEAREST : GL_LINEAR;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);

@@ -8,7 +8,7 @@
 
 namespace glimt {
 
-/// The rendered picture as one OpenGL texture. Lives and dies with the OpenGL context.
+/// The rendered picture as one OpenGL texture. It must be destroyed before the OpenGL context.
 class ImageView {
  public:
   ImageView() = default;
@@ -16,11 +16,11 @@ class ImageView {
   ImageView(const ImageView&) = delete;
   ImageView& operator=(const ImageView&) = delete;
 
-  /// Adds the frame to what ImGui draws behind all panels, at its place within `area`. A frame that does not hold what
-  /// is to be shown leaves the last picture there.
+  /// Adds the frame to what ImGui draws behind all panels, at `place`, clipped to `area`. A frame without the data for
+  /// this view leaves the last picture there.
   void draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area,
             const Placement& place);
-  /// Makes the texture ready for ImGui's picture to be painted; true where it holds something new.
+  /// Makes the texture ready before ImGui paints. Returns true if its contents are new.
   bool prepare();
 
  private:
@@ -28,10 +28,10 @@ class ImageView {
 
   unsigned texture_ = 0;
   int width_ = 0, height_ = 0;          ///< of the texture
-  std::shared_ptr<const Frame> frame_;  ///< in the texture, or on its way there
+  std::shared_ptr<const Frame> frame_;  ///< in the texture, or waiting for upload
   Display display_;
-  std::shared_ptr<const Image> waiting_;  ///< to be uploaded
-  bool whole_ = false;                    ///< each of its pixels covers whole ones of the screen
+  std::shared_ptr<const Image> waiting_;  ///< to upload next
+  bool whole_ = false;                    ///< each picture pixel covers a whole number of screen pixels
 };
 
 }  // namespace glimt

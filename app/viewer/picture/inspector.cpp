@@ -28,7 +28,7 @@ std::optional<Pixel> under_mouse(const ImageSize& size, const Rect& area, const 
   return Pixel{along(io.MousePos.x - r.x, r.width, size.width), along(io.MousePos.y - r.y, r.height, size.height)};
 }
 
-/// A frame around the pixel, so that it is found.
+/// A frame around the pixel.
 void draw_mark(const Pixel& pixel, const ImageSize& size, const Rect& area, const Placement& picture) {
   const Rect& r = picture.rect;
   const float side = r.width / static_cast<float>(size.width);
@@ -49,7 +49,7 @@ std::vector<std::array<std::string, 2>> pixel_lines(const ViewerState& state, co
   const Frame& frame = *state.frame;
   std::vector<std::array<std::string, 2>> lines{{"Pixel", std::to_string(pixel.x) + ", " + std::to_string(pixel.y)}};
   const auto value_at = [&](const Image& image) {
-    // A preview has fewer pixels.
+    // A preview has fewer pixels than its frame.
     return image.pixel(pixel.x * image.width / frame.size.width, pixel.y * image.height / frame.size.height);
   };
   lines.push_back({"Radiance", three(value_at(frame.mean))});

@@ -11,7 +11,7 @@
 
 namespace glimt {
 
-/// Tells a pixel in numbers: the one under the mouse, else the one that was marked.
+/// Shows the numbers of a pixel: the one under the mouse, else the marked one.
 class Inspector {
  public:
   void mark(const std::optional<Pixel>& pixel) { marked_ = pixel; }
@@ -21,7 +21,7 @@ class Inspector {
   std::optional<Pixel> marked_;
 };
 
-/// Value, standard error, samples, and what B has there: a label and a value for each line.
+/// Radiance, standard error, samples, and the values of B there: a label and a value for each line.
 std::vector<std::array<std::string, 2>> pixel_lines(const ViewerState& state, const Pixel& pixel);
 
 }  // namespace glimt

@@ -5,7 +5,7 @@
 
 namespace glimt {
 
-/// Where the camera is outside the room, or the picture is black: says so over the picture, with buttons that help.
+/// Where the camera is outside the room or the picture is black, says so over the picture, with buttons that help.
 void draw_notice(const ViewerState& state, const Rect& area, Edits& edits);
 
 }  // namespace glimt

@@ -16,7 +16,7 @@ namespace {
 using glm::dvec3;
 
 constexpr int circle_pieces = 128, edge_pieces = 32;
-constexpr double in_front = 1 - 1e-4;  ///< share of the way to the outline; what is nearer hides it
+constexpr double in_front = 1 - 1e-4;  ///< share of the way to the outline; a surface nearer than this hides it
 
 struct Edge {
   dvec3 from, to;
@@ -30,7 +30,7 @@ class Outline {
   const CameraView& view() const { return view_; }
 
   void add(Edge edge, int pieces) {
-    // Only what is in front of the camera has a place in the image.
+    // Only points in front of the camera have a place in the image.
     const double near = 1e-3 * glm::length(scene_.camera.look_at - view_.eye);
     const double d0 = view_.depth(edge.from), d1 = view_.depth(edge.to);
     if (d0 < near && d1 < near) return;
@@ -83,7 +83,7 @@ void add_polygon(Outline& outline, const Polygon& polygon) {
 
 void add_mesh(Outline& outline, const Mesh& mesh) {
   const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
-  // By edge: triangles that face the camera, and those that do not.
+  // For each edge, how many triangles face the camera and how many do not.
   std::map<std::pair<int, int>, std::pair<int, int>> sides;
   for (const auto& t : mesh.triangles) {
     const dvec3 normal = cross(vertex(t[1]) - vertex(t[0]), vertex(t[2]) - vertex(t[0]));

@@ -14,8 +14,9 @@ struct OutlinePiece {
   bool hidden = false;  ///< something else is in front of it
 };
 
-/// What surrounds the object in the camera's view: a sphere's circle of tangents, a polygon's edges, a mesh's edges
-/// between triangles that face the camera and ones that do not. Empty where the camera is inside a sphere.
+/// The outline of the object in the camera's view. For a sphere it is the circle where view rays touch it; for a
+/// polygon its edges. For a mesh it is the edges between a triangle that faces the camera and one that does not, and
+/// the edges of a single triangle. Empty where the camera is inside the sphere.
 std::vector<OutlinePiece> outline_of(const Scene& scene, const ObjectId& object);
 
 }  // namespace glimt

@@ -8,16 +8,16 @@
 
 namespace glimt {
 
-/// One piece of work at a time on a thread of its own. The destructor waits for it.
+/// Does one piece of work at a time on its own thread. The destructor waits for it.
 template <class T>
 class Background {
  public:
   /// `wake` is called on that thread when the result is there.
   explicit Background(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// From start() until the result is taken.
+  /// True from start() until the result is taken.
   bool busy() const { return busy_; }
-  /// Only while it is not busy. The work must not throw.
+  /// May be called only while it is not busy. The work must not throw.
   void start(std::function<T()> work) {
     busy_ = true;
     thread_ = std::jthread([this, work = std::move(work)] {
@@ -29,7 +29,7 @@ class Background {
       wake_();
     });
   }
-  /// The result, once.
+  /// The result, given once; nothing while it is not there.
   std::optional<T> take() {
     if (!busy_) return std::nullopt;
     const std::lock_guard lock(mutex_);

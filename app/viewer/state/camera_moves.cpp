@@ -17,12 +17,12 @@ namespace {
 
 using glm::dvec3;
 
-/// The view is at least so far from straight up and down, radians.
+/// Least angle of the view from straight up and straight down, radians.
 constexpr double from_pole = 0.05;
-constexpr double nearest = 1e-3;     ///< distance of the eye from look_at, metres
-constexpr double margin = 0.005;     ///< of moved cameras from surfaces, in sizes of the scene
+constexpr double nearest = 1e-3;     ///< least distance of the eye from look_at, metres
+constexpr double margin = 0.005;     ///< of moved cameras to surfaces, in sizes of the scene
 constexpr double longest_arc = 0.1;  ///< of a step of an orbit, radians
-constexpr double least_lit = 0.125;  ///< share of the picture in which a moved camera sees light
+constexpr double least_lit = 0.125;  ///< least share of the picture in which a moved camera sees light
 
 }  // namespace
 
@@ -30,7 +30,7 @@ Camera orbit(const Camera& camera, const dvec3& pivot, double yaw, double pitch)
   const dvec3 forward = normalize(camera.look_at - camera.eye), up = normalize(camera.up);
   const dvec3 right = normalize(cross(forward, up));
   const double from_up = std::acos(std::clamp(dot(forward, up), -1.0, 1.0));
-  // Where the file's camera looks steeper than that already, it may come back but go no further.
+  // Where the file's camera already looks steeper than that, it may come back but not go further.
   const double lowest = std::min(from_pole, from_up), highest = std::max(std::numbers::pi - from_pole, from_up);
   const double allowed = from_up - std::clamp(from_up - pitch, lowest, highest);
   const glm::dquat turn = glm::angleAxis(yaw, up) * glm::angleAxis(allowed, right);
@@ -87,7 +87,7 @@ double lit_share(Scene scene) {
   constexpr int pixels = 16, samples = 2;
   const double shape = static_cast<double>(scene.image.height) / scene.image.width;
   scene.image = {pixels, std::clamp(static_cast<int>(std::lround(pixels * shape)), 1, 4 * pixels)};
-  // Every path for itself: what others add would take longer to set up than to trace.
+  // Plain paths: the set-up of light paths, connections and sharing would take longer than tracing.
   scene.render = {};
   scene.render.light_paths = 0;
   scene.render.sphere_connections = SphereConnections::off;

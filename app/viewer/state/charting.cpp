@@ -12,14 +12,14 @@
 namespace glimt {
 namespace {
 
-/// Far from what people type, so that a reference shares no random numbers with what is measured against it.
+/// Far from seeds that people type, so that a reference shares no random numbers with what is measured against it.
 constexpr int reference_seed = 1'618'033'988;
 
 RunPoint point_of(const Frame& frame) {
   return {frame.samples, frame.seconds, frame.estimate.relmse_scaled, {}, frame.estimate.is_bound()};
 }
 
-/// The scene as it is rendered best, with all of its light.
+/// The scene with default settings, which render all of its light.
 Scene reference_scene(Scene scene, double target) {
   scene.render = {};
   scene.render.seed = reference_seed;

@@ -26,11 +26,11 @@ struct ChartView {
 /// A picture to measure errors against.
 struct Reference {
   std::string name;
-  std::shared_ptr<const Frame> frame;  ///< samples are 0 where unknown
-  std::shared_ptr<const Scene> scene;  ///< that it is of
+  std::shared_ptr<const Frame> frame;  ///< its number of samples is 0 where unknown
+  std::shared_ptr<const Scene> scene;  ///< that it shows
 };
 
-/// What was measured of a scene.
+/// What was measured on a scene.
 template <class T>
 struct Finding {
   T what;
@@ -42,10 +42,10 @@ struct ChartState {
   ChartView view;
   Curves curves;
   std::shared_ptr<const Reference> reference;  ///< null where there is none
-  bool reference_fits = false;                 ///< it is of the scene that is shown
-  std::shared_ptr<const Frame> making;         ///< how far the next reference has come; null where none is made
-  double target = 1e-4;                        ///< relmse_scaled that it is made to
-  std::optional<double> measuring;             ///< share done of the next finding
+  bool reference_fits = false;                 ///< it shows the same scene as the window
+  std::shared_ptr<const Frame> making;         ///< the next reference as far as it has come; null where none is made
+  double target = 1e-4;                        ///< relmse_scaled at which the next reference is finished
+  std::optional<double> measuring;             ///< share done of a measurement that is going on
   std::optional<Finding<ShadowRayAdvice>> advice;
   std::optional<Finding<Families>> families;
 };
@@ -53,8 +53,8 @@ struct ChartState {
 /// What a person asked for (viewer/state/state.h).
 struct Edits;
 
-/// Keeps the chart: grows the curves, measures them against the reference, makes references and findings. Nothing
-/// waits for any of it.
+/// Keeps the chart: adds to the curves, measures them against the reference, makes references and measurements. No
+/// function waits for that work.
 class Charting {
  public:
   Charting(ChartState& state, const std::function<void()>& wake, Execution execution);
@@ -66,11 +66,11 @@ class Charting {
   void show(std::shared_ptr<const Scene> scene, std::uint64_t gesture);
   /// A new frame of that scene.
   void add(const std::shared_ptr<const Frame>& frame);
-  /// Takes in what was done in the background; true where there was something. An error, if any, goes into `error`.
+  /// Takes in what was done in the background. Returns true if there was something. Sets `error` if work failed.
   bool poll(std::string& error);
-  /// Carries out what needs no files written.
+  /// Carries out the edits of the chart, except writing files.
   void apply(const Edits& edits);
-  /// A measurement or a reference is being made, which wants the machine to itself.
+  /// Whether a measurement or a reference is being made; these need the machine to themselves.
   bool busy() const { return making_ || finder_.busy(); }
 
  private:
@@ -83,7 +83,7 @@ class Charting {
     std::shared_ptr<const Reference> reference;
     std::string error;
   };
-  /// Puts a finding into the state, or says why there is none.
+  /// Puts a finding into the state, or sets `error` to why there is none.
   using Found = std::function<void(ChartState&, std::string& error)>;
 
   void measure();
@@ -99,11 +99,11 @@ class Charting {
   ChartState& state_;
   std::function<void()> wake_;
   Execution execution_;
-  std::shared_ptr<const Scene> scene_;    ///< that is shown
-  std::shared_ptr<const Frame> newest_;   ///< of that scene
-  std::shared_ptr<const Frame> waiting_;  ///< to be measured
+  std::shared_ptr<const Scene> scene_;    ///< the scene that is shown
+  std::shared_ptr<const Frame> newest_;   ///< newest frame of that scene
+  std::shared_ptr<const Frame> waiting_;  ///< frame to measure next
   std::shared_ptr<const Scene> made_scene_;
-  std::atomic<bool> stop_{false};  ///< the finder
+  std::atomic<bool> stop_{false};  ///< asks the finder to stop
   std::atomic<double> found_share_{0};
   Background<Measured> meter_;
   Background<Loaded> loader_;

@@ -5,7 +5,7 @@
 
 #include "render/session.h"
 
-/// The picture A that is being rendered beside another, B.
+/// Compares picture A, which is being rendered, with another picture, B.
 namespace glimt {
 
 enum class CompareView {
@@ -13,29 +13,29 @@ enum class CompareView {
   split,       ///< A left of a line, B right of it
   held,        ///< B alone
   difference,  ///< |A - B|, radiance
-  relative,    ///< the root of e = (A - B)^2 / (B^2 + 0.01), mean of the channels, on a colour scale
+  relative,    ///< root of the mean over channels of (A - B)^2 / (B^2 + 0.01), on a colour scale
 };
 
 /// A picture to compare with.
 struct Held {
   std::shared_ptr<const Frame> frame;  ///< null where nothing is held
   std::string label;
-  std::uint64_t curve = 0;  ///< of the chart, whose label says what it is; 0: none
+  std::uint64_t curve = 0;  ///< the chart's curve whose label names the picture; 0: none
 };
 
 struct Compare {
   Held held;
   CompareView view = CompareView::off;
-  bool with_reference = false;  ///< B is the reference and not what is held
-  float line = 0.5F;            ///< of the split: share of the picture's width
+  bool with_reference = false;  ///< B is the reference, not the held picture
+  float line = 0.5F;            ///< place of the split, as a share of the picture's width
 };
 
 bool same_size(const Image& a, const Image& b);
 
-/// Two pictures of one size.
+/// Pictures of how A and B differ. Both have one size.
 Image difference(const Image& a, const Image& b);
 Image relative_error(const Image& a, const Image& b);
-/// Of one pixel, three floats each.
+/// The relative error of one pixel; a and b are three floats each.
 float relative_error(const float* a, const float* b);
 
 struct Pixel {

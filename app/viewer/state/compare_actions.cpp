@@ -6,7 +6,7 @@ namespace glimt {
 Held picture_b(const ViewerState& state) {
   if (state.compare.with_reference && state.chart.reference) return {state.chart.reference->frame, "reference"};
   Held held = state.compare.held;
-  // What differs from the other curves may have become more since.
+  // Curves that came later may have made the label longer.
   if (const Curve* curve = state.chart.curves.find(held.curve)) held.label = curve->label;
   return held;
 }

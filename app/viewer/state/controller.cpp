@@ -17,18 +17,18 @@ namespace glimt {
 namespace fs = std::filesystem;
 namespace {
 
-/// Edits of a paused scene that are remembered for its next frame to name; the worker takes up the newest within a few.
+/// How many posted scenes are kept until a frame shows one of them. The worker skips to the newest within a few.
 constexpr std::size_t max_posted = 64;
 
 bool is_picture(const fs::path& file) { return file.extension() == ".png" || file.extension() == ".exr"; }
 
-/// Files' name without ending, and without the number of a snapshot.
+/// The file's name without its ending, and without the number of a snapshot.
 std::string stem_of(const fs::path& file) {
   static const std::regex number("-[0-9]{3,}$");
   return is_picture(file) ? std::regex_replace(file.stem().string(), number, "") : file.stem().string();
 }
 
-/// Samples after which a picture that is black so far counts as black: fewer may have missed a small lamp.
+/// Samples after which an all-black picture counts as black. Fewer may have missed a small lamp.
 constexpr int enough_samples = 16;
 
 bool is_black(const Frame& frame) {
@@ -62,7 +62,7 @@ void Controller::recall(const Display& display, const ChartView& chart, fs::path
 
 bool Controller::poll() {
   bool news = false;
-  // More samples of a scene that is edited meanwhile are not worth showing: the answer to the edit is on its way.
+  // Once the scene is edited, more samples of the old one are not worth showing: the answer is on its way.
   const auto outdated = [&](const Frame& frame) {
     return state_.frame && frame.version == state_.frame->version && frame.version < state_.version;
   };
@@ -140,7 +140,7 @@ void Controller::apply(const Edits& edits) {
 
 void Controller::leave_machine_to_chart() {
   if (charting_.busy() && !resume_ && !session_.paused()) {
-    // Times are true only while nothing else is rendered.
+    // Times are right only while nothing else is rendered.
     resume_ = true;
     session_.set_paused(true);
   } else if (!charting_.busy() && resume_) {
@@ -234,14 +234,14 @@ void Controller::open_picture(const fs::path& file) {
   const auto scene = metadata.find("scene");
   if (scene == metadata.end())
     throw std::runtime_error(file.string() + ": holds no scene; allowed are pictures that glimt has written");
-  // It comes back to as many samples as it had, so that it is the same picture.
+  // Rendering stops at the number of samples the picture had, so it is the same picture again.
   Scene made = parse_scene(scene->second, file.string());
   RenderGoal goal = state_.goal;
   goal.stop_at = StopAt::samples;
   goal.samples = made.render.spp;
   state_.fits_window = false;
   edit({std::make_shared<const Scene>(std::move(made)), state_.file, goal});
-  show(now());  // in its own size, also where no edit was left to make
+  show(now());  // at its own size, even if edit() found nothing to change
   set_file(file);
   if (metadata.contains("exposure")) state_.display = read_display(metadata);
   state_.message = {"Opened the scene in " + file.filename().string()};
@@ -270,7 +270,7 @@ void Controller::reload() {
 }
 
 Controller::Posted::const_iterator Controller::shown() const {
-  // A restart's version is not posted; its scene is the one before.
+  // A restart has a version that was not posted; its scene is the one posted before.
   const auto after = posted_.upper_bound(state_.frame->version);
   return after == posted_.begin() ? after : std::prev(after);
 }

@@ -16,25 +16,25 @@
 
 namespace glimt {
 
-/// Owns what the window shows and carries out what its user asks for. Knows neither OpenGL nor ImGui; no function waits
-/// for rendering.
+/// Owns what the window shows and carries out what the person asks for. Uses neither OpenGL nor ImGui. No function
+/// waits for rendering.
 class Controller {
  public:
-  /// Starts to render the scene, which is from `file`. `wake` is called on other threads when poll() has news. Throws
-  /// SceneError.
-  /// With `room` the picture has the size of the room for it in the window, framebuffer pixels.
+  /// Starts to render the scene, which came from `file`. `wake` is called on other threads when poll() has news. With
+  /// `room`, the picture has that size: the free space in the window, framebuffer pixels. Throws SceneError.
   Controller(Scene scene, std::filesystem::path file, const std::function<void()>& wake, Execution execution = {},
              const RenderGoal& goal = {}, const std::optional<ImageSize>& room = {});
 
   const ViewerState& state() const { return state_; }
-  /// poll() will have news though nothing wakes the window: the room for the picture has changed.
+  /// Whether the picture waits for its new size, so that poll() will have news without a wake.
   bool fitting() const { return state_.fits_window && next_room_ != state_.room; }
-  /// What the window remembers from its last start. To be called before the first edits.
+  /// Takes what the window remembers from its last start. Call it before the first edits.
   void recall(const Display& display, const ChartView& chart, std::filesystem::path folder, bool show_hint,
               const std::string& note, DragView drag_view = DragView::automatic);
-  /// Takes in finished frames and snapshots, and a scene file that has changed on disk; true where there was one.
+  /// Takes in finished frames, snapshots and background work, and a scene file that has changed on disk. Returns true
+  /// if there was news.
   bool poll();
-  /// Carries out edits. One that is refused, and a file that cannot be read, change nothing and say why in the message.
+  /// Carries out edits. An edit that is refused, or a file that cannot be read, changes nothing; the message says why.
   void apply(const Edits& edits);
 
  private:
@@ -46,7 +46,7 @@ class Controller {
   void show(const Document& document, std::uint64_t gesture = 0);
   void show(const std::optional<Document>& document);
   void edit(const Document& after, std::uint64_t gesture = 0);
-  /// Gives the picture the size of its room, once that has rested for a while. False where it has it already.
+  /// Gives the picture the size of its room once that has not changed for a while. Returns true if it did.
   bool fit_to_room();
   void set_file(std::filesystem::path file);
   void open(const std::filesystem::path& file);
@@ -60,18 +60,18 @@ class Controller {
   void take_wanted_snapshots();
 
   ViewerState state_;
-  ImageSize next_room_{};  ///< for the picture; becomes state_.room once the window is not being resized any more
+  ImageSize next_room_{};  ///< for the picture; becomes state_.room once the window keeps its size
   std::chrono::steady_clock::time_point room_changed_;
-  std::string stem_;                           ///< of snapshots
+  std::string stem_;                           ///< begins the names of snapshots
   std::shared_ptr<const Scene> posted_scene_;  ///< the same as state_.scene
   History history_;
-  Posted posted_;                 ///< back to the one the frame shows
-  std::vector<Snapshot> wanted_;  ///< of the next frame that holds what they are to show
+  Posted posted_;                 ///< from the one that the frame shows on
+  std::vector<Snapshot> wanted_;  ///< taken from the next frame that holds what they show
   SnapshotWriter snapshots_;
   FileWatch watch_;
   Session session_;
   Charting charting_;
-  bool resume_ = false;  ///< once the chart needs the machine no more
+  bool resume_ = false;  ///< go on rendering once the chart no longer needs the machine
 };
 
 }  // namespace glimt

@@ -8,10 +8,10 @@
 namespace glimt {
 namespace {
 
-constexpr double spacing = 1.19;  ///< of samples from one point to the next: four to an octave
+constexpr double spacing = 1.19;  ///< ratio of samples from one point to the next: four points to an octave
 
 std::optional<double> interpolated(const Curve& curve, ErrorKind kind, Across axis, double value, bool by_error) {
-  std::optional<std::pair<double, double>> last;  // place and error of the point before, logarithms
+  std::optional<std::pair<double, double>> last;  // logarithms of the previous point's place and error
   for (const RunPoint& point : curve.points) {
     const auto error = error_of(point, kind);
     if (!error) continue;
@@ -35,7 +35,7 @@ std::string joined(const std::vector<std::string>& parts, const char* otherwise)
 }
 
 void append(std::vector<RunPoint>& points, const RunPoint& point) {
-  if (!points.empty() && point.samples < points.back().samples) points.clear();  // begun again
+  if (!points.empty() && point.samples < points.back().samples) points.clear();  // rendering has restarted
   const std::size_t count = points.size();
   const bool same = count > 0 && points.back().samples == point.samples;
   const bool near = count > 1 && points.back().samples < spacing * points[count - 2].samples;
@@ -69,7 +69,7 @@ std::optional<double> place_of(const Curve& curve, ErrorKind kind, Across axis, 
 }
 
 std::optional<double> efficiency_ratio(const Curve& curve, const Curve& base, std::optional<double> seconds) {
-  // Fewer pixels take less time.
+  // A smaller picture takes less time, so the two cannot be compared.
   if (curve.scene && base.scene && curve.scene->image != base.scene->image) return std::nullopt;
   const ErrorKind kind = std::min(error_kind(curve), error_kind(base));
   if (seconds) {

@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-/// How many things of the scene wear the material.
+/// How many objects of the scene have the material.
 std::size_t users(const Scene& scene, const std::string& material) {
   const auto all = objects_of(scene);
   return static_cast<std::size_t>(

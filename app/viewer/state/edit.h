@@ -12,14 +12,14 @@
 /// Edits of a scene that take more than an assignment.
 namespace glimt {
 
-/// Gives the object this material and changes no other thing's look: where others share its material, the object first
-/// gets one of its own, named after it. The name in `material` is not used.
+/// Gives the object this material without changing other objects. Where others share its old material, the object gets
+/// a new one, named after it. The name in `material` is not used.
 void set_material(Scene& scene, const ObjectId& object, Material material);
 
 /// The object's own name, or its kind and number.
 std::string display_name(const Scene& scene, const ObjectId& object);
 
-/// Why the object cannot be of this type in this scene; empty where it can.
+/// Why the object cannot have a material of this type in this scene; empty where it can.
 std::string obstacle_to(const Scene& scene, const ObjectId& object, std::string_view type);
 
 /// The objects that are lamps.

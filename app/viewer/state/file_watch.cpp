@@ -46,7 +46,7 @@ void FileWatch::work() {
   while (!stop_.wait_for(lock, interval, [&] { return quit_; })) {
     if (file_.empty()) continue;
     const Stamp now = stamp_of(file_);
-    // Editors may write in several steps, or put another file in its place: it counts once it stays.
+    // Editors may write in several steps or replace the file, so a change counts once two checks agree.
     const bool stays = now == std::exchange(seen_, now);
     if (!stays || now == known_ || now == Stamp{}) continue;
     known_ = now;

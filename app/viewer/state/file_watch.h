@@ -8,18 +8,18 @@
 
 namespace glimt {
 
-/// Looks a few times a second, on a thread of its own, whether a file has changed on disk.
+/// Checks a few times a second, on its own thread, whether a file has changed on disk.
 class FileWatch {
  public:
-  /// `wake` is called on that thread when changed() has become true.
+  /// Calls `wake` on that thread when changed() has become true.
   explicit FileWatch(std::function<void()> wake);
   ~FileWatch();
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  /// Looks at this file from now on (none where empty); as it is now counts as known.
+  /// Watches this file from now on, none where empty. Its present state counts as known.
   void watch(std::filesystem::path file);
-  /// Whether the file has changed since it was last asked, and has been left alone since.
+  /// Whether the file has changed since the last call and has stayed the same for one check since.
   bool changed();
 
  private:

@@ -11,19 +11,19 @@
 
 namespace glimt {
 
-/// A scene as its file holds it, the file that it is from, and how far it is rendered.
+/// A scene as its file holds it, that file, and how far the scene is rendered.
 struct Document {
   std::shared_ptr<const Scene> scene;
   std::filesystem::path file;
   RenderGoal goal = {};
 };
 
-/// What edits can be undone and redone.
+/// The edits that can be undone and redone.
 class History {
  public:
-  /// Notes what there was before an edit. One of the same gesture (not 0) as the edit before belongs to that.
+  /// Records the state before an edit. Edits of one gesture (not 0) are undone together.
   void edited(Document before, std::uint64_t gesture);
-  /// Goes back, or forth again, from what there is now; nothing where there is no further.
+  /// Goes back or forward one step from the present state; nothing where there is no further step.
   std::optional<Document> undo(Document now) { return move(undo_, redo_, std::move(now)); }
   std::optional<Document> redo(Document now) { return move(redo_, undo_, std::move(now)); }
   bool can_undo() const { return !undo_.empty(); }

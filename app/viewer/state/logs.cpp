@@ -30,7 +30,7 @@ void Logs::laid_out(const WidgetRects& widgets) {
   std::ostringstream text;
   for (const auto& [name, r] : widgets)
     text << name << '\t' << r.x << ' ' << r.y << ' ' << r.width << ' ' << r.height << '\n';
-  // A menu takes its place only in the second picture of it, so controls are told once they stay where they are.
+  // A menu gets its place only in its second picture, so controls are logged once they stay where they are.
   const bool stands = text.str() == drawn_widgets_;
   drawn_widgets_ = text.str();
   if (!stands || drawn_widgets_ == told_widgets_) return;

@@ -8,13 +8,13 @@
 
 namespace glimt {
 
-/// What tests and measurements can ask a window to tell, see viewer.h.
+/// Writes the logs for tests and measurements; see viewer.h.
 class Logs {
  public:
   Logs();
-  /// To be called when a picture of the window is on the screen.
+  /// Call it when a picture of the window is on the screen.
   void picture(const ViewerState& state);
-  /// To be called when the controls have been laid out.
+  /// Call it when the controls have been laid out.
   void laid_out(const WidgetRects& widgets);
 
  private:

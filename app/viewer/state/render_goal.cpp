@@ -13,7 +13,7 @@ RenderGoal goal_for(const Scene& scene, RenderGoal goal) {
 Scene as_shown(Scene scene, const RenderGoal& goal, const std::optional<ImageSize>& size) {
   if (size) scene.image = *size;
   Settings& settings = scene.render;
-  // Sub-pixel centres are as many as the samples: the number is a part of the method, and ends it.
+  // There are as many sub-pixel centres as samples. So the number is part of the method, and rendering ends there.
   const bool counted = settings.sampler == Sampler::centres;
   settings.target_error = goal.stop_at == StopAt::error ? goal.error : 0;
   if (goal.stop_at == StopAt::samples)

@@ -23,7 +23,7 @@ std::string text_of(double value) {
 }
 std::string text_of(const glm::dvec3& v) { return text_of(v.x) + " " + text_of(v.y) + " " + text_of(v.z); }
 
-/// A field's value in words. Names of samplers and methods speak for themselves.
+/// A field's value in words. Names of samplers and methods stand without their key.
 template <class T>
 std::string value_text(const Field<T>& field, const T& object) {
   return std::visit(
@@ -74,7 +74,7 @@ class Finder {
     for (const auto& f : settings_fields()) {
       if (f.key == "spp" || f.key == "target_error") continue;
       field(f, "", from, to_.render);
-      // A method brings other settings along: told is what differs from those.
+      // A method sets other settings too. Only what differs from those is told.
       if (f.key == "method" && from.method != to_.render.method) set_method(from, to_.render.method);
     }
   }

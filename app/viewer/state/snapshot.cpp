@@ -14,7 +14,8 @@
 namespace glimt {
 namespace {
 
-/// Writes a file of a name that is free, or none. `what` is told of it, or `write` threw.
+/// Writes a file under a free name, and removes it if `write` throws. The message is the file's name and `what`, or why
+/// it was not saved.
 Message write_now(const std::string& stem, const std::string& ending, const std::string& what,
                   const std::function<void(const std::filesystem::path&)>& write) {
   try {
@@ -44,7 +45,7 @@ void write_picture(const Snapshot& snapshot, const std::filesystem::path& file) 
 }  // namespace
 
 bool is_complete(const Snapshot& snapshot) {
-  // A preview holds no samples that a reopened snapshot could come back to.
+  // A preview has no samples, so a reopened snapshot could not render the same picture.
   if (!snapshot.frame || snapshot.frame->samples == 0) return false;
   return shown_image(snapshot.frame, snapshot.radiance ? View::error : snapshot.display.view) != nullptr;
 }

@@ -23,34 +23,34 @@ struct Message {
   bool error = false;
 };
 
-/// All that the panels show. They read it; the controller alone changes it.
+/// All that the panels show. Panels only read it; the controller changes it.
 struct ViewerState {
-  Scene scene;                                    ///< as edited and rendered; the frame may still show the one before
-  std::shared_ptr<const Scene> filed;             ///< the same as a file holds it: with its own target
+  Scene scene;                                    ///< as edited and rendered; the frame may still show an older one
+  std::shared_ptr<const Scene> filed;             ///< the same as a file holds it, with the file's own target
   RenderGoal goal;                                ///< how far the scene is rendered
-  std::uint64_t version = 0;                      ///< of the scene; frames of this or a later one show it
+  std::uint64_t version = 0;                      ///< of the scene; frames of this or a later version show it
   std::shared_ptr<const CompiledScene> compiled;  ///< of the scene
-  bool fits_window = false;                       ///< the picture has the size of the room for it in the window
-  ImageSize room{};                               ///< for the picture without the chart, framebuffer pixels
-  Camera opened_camera;                           ///< as it was in the file, to come back to
-  ImageSize opened_size{};                        ///< the same for the picture's size
-  std::filesystem::path file;                     ///< that the scene is from; empty for a picture's scene
-  std::filesystem::path folder;                   ///< last looked into for files
-  std::optional<ObjectId> selected;               ///< always one of the scene
+  bool fits_window = false;                       ///< the picture's size follows the free space in the window
+  ImageSize room{};                               ///< free space for the picture, without the chart; framebuffer pixels
+  Camera opened_camera;                           ///< as in the file, to return to
+  ImageSize opened_size{};                        ///< the picture's size in the file
+  std::filesystem::path file;                     ///< of the scene; empty where the scene came from a picture
+  std::filesystem::path folder;                   ///< last opened in the files' sheet
+  std::optional<ObjectId> selected;               ///< always an object of the scene
   Display display;
   bool paused = false, can_undo = false, can_redo = false;
-  bool hint = false;                   ///< the line for somebody's first start is shown
+  bool hint = false;                   ///< the hint for the first start is shown
   std::shared_ptr<const Frame> frame;  ///< the newest; null before the first
   Message message;
   ChartState chart;
   Compare compare;
-  bool inspect = false;  ///< the pixel under the mouse is told in numbers
+  bool inspect = false;  ///< show the numbers of the pixel under the mouse
   DragView drag_view = DragView::automatic;
   bool enclosed = false;  ///< the eye is in a closed room
-  bool black = false;     ///< all of the frame is, and it has enough samples to say so
+  bool black = false;     ///< the whole frame is, and it has enough samples to say so
 };
 
-/// Whether a drag turns the view about the eye.
+/// Whether a drag turns the view about the eye (else it orbits).
 inline bool drag_turns(const ViewerState& state) {
   return state.drag_view == DragView::automatic ? state.enclosed : state.drag_view == DragView::turn;
 }
@@ -58,36 +58,35 @@ inline bool drag_turns(const ViewerState& state) {
 /// What a file is chosen for.
 enum class FilePurpose { none, open, save, reference };
 
-/// How large the picture is looked at.
+/// How large the picture is shown.
 enum class PictureZoom { fitted, pixel_by_pixel };
 
 /// What a person asked for while one picture of the window was drawn.
 struct Edits {
-  std::optional<Scene> scene;  ///< its target does not count: that is `goal`
+  std::optional<Scene> scene;  ///< its own target is ignored: the target is `goal`
   std::optional<RenderGoal> goal;
-  std::uint64_t gesture =
-      0;  ///< edits of scene and goal that follow each other in one gesture, as in a drag, are undone as one
-  std::optional<bool> fits_window;  ///< with false, the size of `scene` is the picture's from now on
-  std::optional<ImageSize> room;    ///< for the picture, as it is laid out now
+  std::uint64_t gesture = 0;        ///< edits of scene and goal in one gesture, such as a drag, are undone together
+  std::optional<bool> fits_window;  ///< false: the picture has the size of `scene` from now on
+  std::optional<ImageSize> room;    ///< free space for the picture, as laid out now
   std::optional<Display> display;
   std::optional<std::optional<ObjectId>> select;  ///< an object, or none
   std::optional<std::filesystem::path> open;      ///< a scene file, or a picture that glimt has written
-  std::optional<std::filesystem::path> save;      ///< a scene file to write, over one that is there
+  std::optional<std::filesystem::path> save;      ///< a scene file to write; an existing one is replaced
   std::optional<std::filesystem::path> folder;
   bool toggle_pause = false;
   bool restart = false;
   bool undo = false, redo = false;
   bool snapshot = false, snapshot_exr = false;
   bool dismiss_hint = false;
-  std::optional<FilePurpose> choose_file;  ///< the sheet of files comes up
+  std::optional<FilePurpose> choose_file;  ///< open the files' sheet
   std::optional<PictureZoom> zoom;
-  bool worst_pixel = false;  ///< to go to it
+  bool worst_pixel = false;  ///< go to it
   bool toggle_help = false;
-  bool escape = false;  ///< close the sheets over the picture, or select nothing
+  bool escape = false;  ///< close the sheets over the picture, else select nothing
   std::optional<ChartView> chart_view;
   std::optional<std::uint64_t> show_curve, hide_curve, remove_curve, base_curve;
   std::optional<std::filesystem::path> load_reference;
-  std::optional<double> reference_target;  ///< relmse_scaled that the next is made to
+  std::optional<double> reference_target;  ///< relmse_scaled at which the next reference is finished
   bool clear_chart = false;
   bool make_reference = false, use_reference_now = false, stop_reference = false, drop_reference = false;
   bool advise = false, measure_families = false, stop_measuring = false;
@@ -97,7 +96,7 @@ struct Edits {
   std::optional<DragView> drag_view;
   bool quit = false;
 
-  /// The scene to write an edit into.
+  /// The scene to change: the one edited so far, or a copy of the present one.
   Scene& edit(const ViewerState& state) { return scene ? *scene : scene.emplace(state.scene); }
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int smallest = 320, largest = 16384;
 
-/// Takes the value of a key where it is there; throws where it is of another type.
+/// Reads the value of a key, if the table has it; throws where it has another type.
 template <class T>
 void take(const toml::table& table, std::string_view key, T& value) {
   const toml::node* node = table.get(key);

@@ -11,20 +11,20 @@ namespace glimt {
 
 /// What the window remembers from one start to the next.
 struct WindowSettings {
-  int width = 1312, height = 828;  ///< in window coordinates; leaves room for 400 x 400 pixels exactly doubled
+  int width = 1312, height = 828;  ///< design units; a picture of 400 x 400 fits exactly doubled
   Display display;
-  std::filesystem::path folder;  ///< last looked into for files; empty: the current one
-  bool hint_seen = false;        ///< the line for a first start was read
+  std::filesystem::path folder;  ///< last opened in the files' sheet; empty: the current one
+  bool hint_seen = false;        ///< the hint for the first start was dismissed
   ChartView chart;
   DragView drag_view = DragView::automatic;
-  bool fits_window = true;  ///< the picture has the size of the room for it
+  bool fits_window = true;  ///< the picture's size follows the free space in the window
 };
 
 /// glimt/window.toml in the user's configuration directory ($XDG_CONFIG_HOME, else ~/.config); empty where there is
 /// none.
 std::filesystem::path window_settings_file();
 
-/// Reads the file; one that is missing gives the defaults. One that is damaged does too, and `note` says so.
+/// Reads the file. A missing file gives the defaults. A damaged file does too, and then `note` says so.
 WindowSettings read_window_settings(const std::filesystem::path& file, std::string& note);
 
 /// Throws ImageFileError (film/image_file.h) where the file cannot be written.

@@ -4,7 +4,7 @@
 
 namespace glimt {
 
-/// Linear light 0..1 to sRGB 0..1 (IEC 61966-2-1) and back, for colour pickers.
+/// Linear values 0..1 to sRGB 0..1 (IEC 61966-2-1) and back, for colour pickers.
 double srgb_from_linear(double linear);
 double linear_from_srgb(double srgb);
 glm::dvec3 srgb_from_linear(const glm::dvec3& linear);

@@ -21,12 +21,12 @@ namespace {
 
 constexpr double widest_linear_slider = 100;  ///< integers over more than this get a logarithmic slider
 constexpr double widest_slider = 1 << 25;     ///< integers over more than this are typed
-constexpr double widest_real_slider = 4;  ///< reals over more than this are dragged, in steps of a share of the value
+constexpr double widest_real_slider = 4;      ///< reals over more than this are dragged; a step is a share of the value
 constexpr const char* typing_hint = "\nDrag, or Ctrl+click to type a number.";
 
 constexpr std::string_view degree_sign = "\u00B0";
 
-/// The least value to allow: just above an excluded limit.
+/// The least value allowed: just above an excluded limit.
 double lowest(const FieldText& field) {
   return field.min_excluded ? field.min + std::min(field.max - field.min, 1.0) * 1e-4 : field.min;
 }
@@ -54,7 +54,7 @@ std::string format_of(const FieldText& field, double value) {
   return unit.empty() ? "%.3f" : "%.3g " + std::string(unit);
 }
 
-/// A number without a slider: dragging changes it by a share of itself a pixel.
+/// A number without a slider: each pixel of a drag changes it by a share of its value.
 bool drag_real(const FieldText& field, double& value) {
   const double low = lowest(field), high = field.max;
   const auto speed = static_cast<float>(std::max(value, 0.1) * 0.005);
@@ -94,7 +94,7 @@ bool edit_value(const FieldText& field, int& value) {
     changed = ImGui::InputInt("##value", &value, 1, 100);
   } else if (range > widest_linear_slider) {
     changed = slider(value, low, high, true);
-    // The mouse goes by powers of two; others can be typed.
+    // The mouse chooses powers of two; other numbers can be typed.
     if (changed && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = 1 << std::lround(std::log2(std::max(value, 1)));
   } else {
     changed = slider(value, low, high, false);

@@ -9,24 +9,24 @@
 
 #include "scene/fields.h"
 
-/// The control that suits a field of the field table: sliders for numbers, a menu for choices, swatches for colours.
+/// The control for each kind of field in the field table: sliders for numbers, menus for choices, swatches for colours.
 namespace glimt {
 
-/// What a control needs to know of its field.
+/// What a control needs to know about its field.
 struct FieldText {
-  std::string name;  ///< of the control, unique in the window: "render.spp"
+  std::string name;  ///< name of the control, unique in the window: "render.spp"
   std::string_view key, doc;
   double min = 0, max = 0;
   bool min_excluded = false;
 };
 
-/// Each draws a row and returns true where its value was changed, always to one that the field allows.
+/// Each draws a row and returns true if the value changed. The new value is always one that the field allows.
 bool edit_value(const FieldText& field, int& value);
 bool edit_value(const FieldText& field, double& value);
 bool edit_value(const FieldText& field, glm::dvec3& value);
 bool edit_choice(const FieldText& field, std::span<const std::string_view> names, int& value);
 
-/// The row of one field of `object`, which stands at `path` in the scene ("render", "sphere.glass.material").
+/// Draws the row of one field of `object`, whose path in the scene is `path` ("render", "sphere.glass.material").
 template <class T>
 bool edit_field(const Field<T>& field, T& object, const std::string& path) {
   const FieldText text{

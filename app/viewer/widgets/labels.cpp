@@ -11,7 +11,7 @@ struct Wording {
   std::string_view key, label, unit;
 };
 
-/// Keys that are not words, or have a unit.
+/// Keys that need other words or have a unit.
 constexpr std::array wordings{
     Wording{"spp", "Samples / pixel", ""},
     Wording{"seed", "Random seed", ""},

@@ -5,16 +5,16 @@
 
 #include "scene/scene.h"
 
-/// How the field table (scene/fields.h) and its values are said in the window.
+/// The window's words for fields (scene/fields.h) and their values.
 namespace glimt {
 
 /// A key or value in words: "shadow_rays" becomes "Shadow rays", "oren-nayar" "Oren-Nayar".
 std::string label_of(std::string_view key);
 
-/// A line of documentation with a capital letter at its start.
+/// A field's documentation, beginning with a capital letter.
 std::string sentence(std::string_view doc);
 
-/// The unit of a field's value, or nothing. A roughness is in radians only where its documentation says so.
+/// The unit of a field's value, empty where it has none. A roughness is in radians only if its documentation says so.
 std::string_view unit_of(std::string_view key, std::string_view doc);
 
 /// "400 × 300".

@@ -50,7 +50,8 @@ Placement place_image(int image_width, int image_height, const Rect& area, float
 
 namespace {
 
-/// Along one axis: the middle of the free space as a share of the picture, so that no space is left empty for nothing.
+/// Along one axis: the place of the picture in the middle of the space, limited so that no space stays empty
+/// needlessly.
 float clamped(float share, float free, float picture) {
   const float half = 0.5F * free / picture;
   return half >= 0.5F ? 0.5F : std::clamp(share, half, 1 - half);

@@ -12,7 +12,7 @@ constexpr float heading_size = 17;
 
 float current_scale = 1;
 
-/// Adds the first of the files that exists, else ImGui's own font.
+/// Adds the first of these files that exists, else ImGui's own font.
 void add_font(const std::array<const char*, 2>& files, float pixels) {
   static constexpr ImWchar glyphs[] = {0x20, 0xFF, 0x2013, 0x2014, 0x2026, 0x2026, 0};
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;

@@ -8,7 +8,7 @@
 namespace glimt {
 namespace {
 
-/// The frame of a slider, filled between two shares of its width, and what ImGui's own slider adds to it.
+/// Draws the frame of a slider, filled between two shares of its width. ImGui's own slider is drawn over it.
 class Bar {
  public:
   Bar(double from, double to) {
@@ -60,13 +60,13 @@ bool slider(int& value, int low, int high, bool logarithmic) {
 
 bool logarithmic_slider(double& value, double low, double high, const char* unit) {
   const Bar bar(0, std::log(std::max(value, low) / low) / std::log(high / low));
-  // As many digits as ImGui needs to tell the lowest value from 0.
+  // ImGui needs this many digits to tell the lowest value from 0.
   const int digits = static_cast<int>(std::ceil(-std::log10(low)));
   const std::string format = "%." + std::to_string(digits) + "g" + unit;
   const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format.c_str(),
                                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   if (!changed) return false;
-  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {  // by the mouse two digits are enough; others can be typed
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {  // the mouse chooses two digits; other numbers can be typed
     const double place = std::pow(10, std::floor(std::log10(std::max(value, low))) - 1);
     value = std::round(value / place) * place;
   }
