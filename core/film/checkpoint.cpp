@@ -27,7 +27,7 @@ static_assert(std::endian::native == std::endian::little, "sums are written as t
 constexpr std::string_view checkpoint_signature = "\x89GLIMT\r\n";
 constexpr std::uint32_t checkpoint_format = 1;
 
-/// How the file begins, behind its signature. No gaps: it is written as it is in memory.
+/// The file's beginning, after its signature. It is written as it is in memory, so it has no padding.
 struct CheckpointStart {
   std::uint32_t format = checkpoint_format;
   std::uint32_t checksum = 0;  ///< CRC-32 of all that follows
@@ -54,7 +54,7 @@ std::uint32_t add_to_checksum(std::uint32_t sum, std::string_view bytes) {
   return static_cast<std::uint32_t>(crc32_z(sum, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-/// Of a file that begins so, with an image within the limits.
+/// The size of a file with this beginning, whose image is within the limits.
 std::uint64_t size_of_file(const CheckpointStart& start) {
   const std::uint64_t pixels = static_cast<std::uint64_t>(start.width) * static_cast<std::uint64_t>(start.height);
   return checkpoint_signature.size() + sizeof start + start.version_length + start.scene_length +
@@ -77,7 +77,7 @@ bool in_order(const SampleRanges& ranges) {
   return true;
 }
 
-/// Reads a checkpoint piece by piece and sums up what it has read.
+/// Reads a checkpoint piece by piece and keeps the checksum of what it has read.
 class CheckpointReader {
  public:
   explicit CheckpointReader(const fs::path& file) : file_(file) {

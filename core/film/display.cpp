@@ -20,14 +20,15 @@ double linear_to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-/// What dithering adds before rounding down: 0..1, evenly, on the lattice R2 of Roberts ("The unreasonable
-/// effectiveness of quasirandom sequences", 2018), whose neighbours differ much. Added to 255 it is exact in a float.
+/// What dithering adds before rounding down: 0..1, evenly distributed, from Roberts' lattice R2 ("The unreasonable
+/// effectiveness of quasirandom sequences", 2018), where neighbours differ much. Its sum with 255 is exact in a float.
 float dither_offset(std::uint32_t x, std::uint32_t y) {
-  const std::uint32_t turn = x * 3242174889u + y * 2447445414u;  // fractions of 2^32
+  const std::uint32_t turn = x * 3242174889u + y * 2447445414u;  // in units of 2^-32
   return (static_cast<float>(turn >> 17) + 0.5f) * 0x1p-15f;
 }
 
-/// Rounds the sRGB curve without a power or a branch per value. An octave of linear values is cut into 128 bins.
+/// Evaluates and rounds the sRGB curve without a power or a branch per value. It cuts each octave of linear values into
+/// 128 bins.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -42,22 +43,22 @@ class SrgbTable {
     for (std::uint32_t bin = 0; bin < bins_.size(); ++bin) {
       const std::uint32_t edge = (bin << shift) + lowest_bits;
       for (; step <= edge; step = first_of(code + 1)) ++code;
-      const std::uint32_t below = step - edge;  // values of the bin that are below its step
+      const std::uint32_t below = step - edge;  // number of the bin's floats that are below the step
       bins_[bin] = (code << shift) + (below < bin_size ? bin_size - below : 0);
     }
   }
 
-  /// Exactly to nearest: bins are so fine that the rounded code steps up at one value in a bin at most.
+  /// Rounds to the nearest code, exactly. Bins are so fine that the code steps up at most once in a bin.
   std::uint8_t nearest(float linear) const {
-    float inside = linear > lowest ? linear : lowest;  // also where it is no number
+    float inside = linear > lowest ? linear : lowest;  // also for NaN
     inside = inside < highest ? inside : highest;
     const auto bits = std::bit_cast<std::uint32_t>(inside) - lowest_bits;
     return static_cast<std::uint8_t>((bins_[bits >> shift] + bits % bin_size) >> shift);
   }
 
-  /// Down, after the offset (0..1) is added. A bin's chord is less than 5e-4 of a step below the curve.
+  /// Adds the offset (0..1) and rounds down. A bin's chord is less than 5e-4 of a step below the curve.
   std::uint8_t dithered(float linear, float offset) const {
-    float inside = linear > 0 ? linear : 0;  // also where it is no number
+    float inside = linear > 0 ? linear : 0;  // also for NaN
     inside = inside < 1 ? inside : 1;
     const auto bits = std::bit_cast<std::uint32_t>(inside > lowest ? inside : lowest) - lowest_bits;
     const float on_chord = level_[bits >> shift] + rise_[bits >> shift] * static_cast<float>(bits % bin_size);
@@ -66,13 +67,13 @@ class SrgbTable {
   }
 
  private:
-  static constexpr float lowest = 0x1p-13f;  // below the first step, 0.5 / 255 / 12.92
+  static constexpr float lowest = 0x1p-13f;  // less than the first step, 0.5 / 255 / 12.92
   static constexpr float highest = 1 - 0x1p-24f;
   static constexpr std::uint32_t lowest_bits = std::bit_cast<std::uint32_t>(lowest);
   static constexpr int shift = 16;
   static constexpr std::uint32_t bin_size = 1u << shift;
 
-  /// Bits of the smallest linear value of a code; more than any value's for 256.
+  /// Bits of the smallest linear value with this code. For 256, more than the bits of any value.
   static std::uint32_t first_of(std::uint32_t code) {
     if (code > 255) return std::bit_cast<std::uint32_t>(2.0f);
     const double step = srgb_to_linear((code - 0.5) / 255);
@@ -80,9 +81,10 @@ class SrgbTable {
     return std::bit_cast<std::uint32_t>(first < step ? std::nextafter(first, 2.0f) : first);
   }
 
-  /// Code at the lower edge of each bin, in the upper half; what carries into it from the bin's step on, in the lower.
+  /// Upper half: the code at the lower edge of each bin. Lower half: a number that carries into the code from the bin's
+  /// step on.
   std::array<std::uint32_t, std::size_t{13} * 128> bins_{};
-  /// The curve in codes at the lower edge of each bin and of 1, and how much it rises from one float to the next.
+  /// The curve at the lower edge of each bin and at 1, in codes, and its rise from one float to the next.
   std::array<float, std::size_t{13} * 128 + 1> level_{}, rise_{};
 };
 
@@ -101,12 +103,12 @@ const std::array<Field<Display>, 4> display_table{{
 }};
 
 float filmic(float x) {
-  // Where the curve is above 1 already, and products do not overflow. A NaN stays one.
+  // At 1e3 the curve is above 1 already, and products do not overflow. NaN stays NaN.
   const float v = std::min(std::max(x, 0.0f), 1e3f);
   return v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f);
 }
 
-/// From dark to bright in steps that look alike (CIE L*a*b*), in grey too. 8-bit sRGB.
+/// From dark to bright in steps that look equal (CIE L*a*b*), also in grey. 8-bit sRGB.
 constexpr std::array<std::array<float, 3>, 5> scale_stops{
     {{25, 19, 36}, {74, 40, 139}, {192, 71, 116}, {249, 149, 79}, {241, 236, 196}}};
 

@@ -17,12 +17,12 @@ namespace {
 constexpr std::array channel_names = {"R", "G", "B"};
 constexpr int largest_side = 1 << 20;
 
-/// A channel of interleaved floats; `base` is where its pixel (0, 0) would be.
+/// One channel of interleaved floats. `base` is the address of its pixel (0, 0), which need not exist.
 Imf::Slice float_slice(float* base, std::size_t row_floats) {
   return {Imf::FLOAT, reinterpret_cast<char*>(base), 3 * sizeof(float), row_floats * sizeof(float)};
 }
 
-/// OpenEXR's messages come as "Cannot read image file "". Reason."; the reason is what is left to say.
+/// OpenEXR's messages have the form "Cannot read image file "". Reason."; this keeps the reason.
 [[noreturn]] void fail(const std::exception& error) {
   const std::string text = error.what();
   const std::size_t reason = text.find("\". ");
@@ -38,7 +38,7 @@ std::string encode_exr(const Image& mean, const Image& standard_error, const Met
   const auto add_channels = [&](const std::string& prefix, const Image& image) {
     for (std::size_t c = 0; c < channel_names.size(); ++c) {
       header.channels().insert(prefix + channel_names[c], Imf::Channel(Imf::FLOAT));
-      // The library takes what it writes by a pointer to non-const too.
+      // The library wants a non-const pointer even to data that it only writes to a file.
       channels.insert(prefix + channel_names[c], float_slice(const_cast<float*>(image.rgb.data()) + c, row_floats));
     }
   };
@@ -69,7 +69,7 @@ Image decode_exr(std::string_view bytes) {
                height = std::int64_t{window.max.y} - window.min.y + 1;
     if (width > largest_side || height > largest_side) throw std::runtime_error("a side is longer than 2^20 pixels");
 
-    // Row by row, so that a header that lies about the size takes no memory before the data is seen to be missing.
+    // Reading row by row keeps a header with a wrong size from taking memory for data that is not there.
     Image image{static_cast<int>(width), static_cast<int>(height), {}};
     std::vector<float> row(static_cast<std::size_t>(width) * 3);
     Imf::FrameBuffer channels;

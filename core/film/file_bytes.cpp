@@ -22,14 +22,14 @@ namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// What the names of all temporary files of `target` begin with. A name may have 255 bytes.
+/// The beginning of the names of all temporary files of `target`. A file name may have 255 bytes.
 std::string temporary_prefix(const fs::path& target) {
   return "." + target.filename().string().substr(0, 200) + ".glimt-";
 }
 
 constexpr std::string_view temporary_ending = ".tmp";
 
-/// A new empty file that goes away with this object unless it is renamed.
+/// A new empty file that is removed with this object unless it was renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
@@ -66,7 +66,7 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-/// True where this program prints into the file: `--stats /dev/stdout > log` would replace the log.
+/// Whether this program prints into the file: `--stats /dev/stdout > log` would replace the log.
 bool takes_messages(const fs::path& file) {
   struct stat messages {
   }, wanted{};
@@ -77,7 +77,7 @@ bool takes_messages(const fs::path& file) {
   return false;
 }
 
-/// The file behind symbolic links.
+/// The file that symbolic links lead to.
 fs::path resolved(const fs::path& file) {
   std::error_code error;
   const fs::path target = fs::weakly_canonical(fs::absolute(file, error), error);

@@ -12,17 +12,18 @@ namespace {
 
 constexpr std::uint64_t largest_sum = std::numeric_limits<std::int64_t>::max();
 
-constexpr double magic = 0x1p52;  // adding it rounds to a whole number, which is then in the lowest bits
+constexpr double magic = 0x1p52;  // adding it rounds to an integer, which is then in the lowest bits
 
-/// To the nearest whole number, for 0 <= value * scale < 2^52. The product is exact, because scale is a power of two.
+/// value * scale, rounded to the nearest integer, for 0 <= value * scale < 2^52. The product is exact, because scale is
+/// a power of two.
 std::uint64_t units(float value, double scale) {
   return std::bit_cast<std::uint64_t>(value * scale + magic) - std::bit_cast<std::uint64_t>(magic);
 }
 
-/// Threads may count at the same time.
+/// Adds 1 to a counter that several threads share.
 void count(std::uint64_t& counter) { std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed); }
 
-/// Fills an image, f(pixel) -> array of three numbers, on several threads where the image is large.
+/// Makes an image from f(pixel) -> array of three numbers, on several threads if the image is large.
 template <class F>
 Image make_image(int width, int height, F f) {
   const int pixels = width * height;
@@ -45,7 +46,7 @@ double reciprocal(int n) { return n > 0 ? 1.0 / n : 0.0; }
 
 Film::Film(int width, int height, double max_radiance, std::vector<Emitter> emitters)
     : width_(width), height_(height), emitters_(std::move(emitters)), by_chance_(chance_counters(emitters_.size())) {
-  // Within the range of float, with room for the fixed point on either side.
+  // Stays inside the range of float, with room for the fixed point on either side.
   const double brightest =
       max_radiance > 0 && std::isfinite(max_radiance) ? std::clamp(max_radiance, 1e-30, 1e30) : 1.0;
   scale_ = std::exp2(38 - std::ceil(std::log2(brightest)));
@@ -80,7 +81,7 @@ std::uint64_t Film::checked_units(float value) {
     count(invalid_);
     return 0;
   }
-  const double scaled = value * scale_;  // a whole number from 2^24 units on
+  const double scaled = value * scale_;  // an integer from 2^24 units on
   return scaled < magic ? units(value, scale_) : scaled < 0x1p63 ? static_cast<std::uint64_t>(scaled) : largest_sum + 1;
 }
 
@@ -93,7 +94,7 @@ void Film::add_unusual(std::uint64_t& sum, float value) {
 void Film::add(int half, std::span<const Splat> splats) {
   std::uint64_t* const first = sums_[static_cast<std::size_t>(half)].data();
   const auto place = [&](std::size_t i) { return first + 3 * static_cast<std::size_t>(splats[i].pixel); };
-  constexpr std::size_t ahead = 8;  // pixels are far apart, and an addition waits for its own
+  constexpr std::size_t ahead = 8;  // pixels are far apart in memory, so each is fetched before its addition
   for (std::size_t i = 0; i < splats.size(); ++i) {
     if (i + ahead < splats.size()) __builtin_prefetch(place(i + ahead), 1);
     std::uint64_t* sums = place(i);

@@ -12,7 +12,7 @@
 
 namespace glimt {
 
-/// Linear RGB, row by row from the top, three floats a pixel. W/(m^2 sr) where it holds radiance.
+/// Linear RGB, row by row from the top, three floats per pixel. Radiance is in W/(m^2 sr).
 struct Image {
   int width = 0;
   int height = 0;
@@ -23,41 +23,42 @@ struct Image {
 };
 
 /// Sums of radiance per pixel in two independent halves: sample 2k + h of a pixel is sample k of half h. Sums are
-/// 64-bit fixed point: they are the same in any order of the samples, and do not drift however many there are.
+/// 64-bit fixed point. So the order of the samples does not change them, and rounding errors do not build up.
 class Film {
  public:
   Film() = default;
 
-  /// `max_radiance` is the brightest emission in the scene; a unit of the fixed point is 2^-38 of it (rounded to a
-  /// power of two), which leaves room for 2^25 samples of that brightness a pixel and half. `emitters`: of the scene.
+  /// `max_radiance` is the brightest emission in the scene. A unit of the fixed point is 2^-38 of it, rounded up to a
+  /// power of two. So each pixel of a half has room for 2^25 samples of that brightness. `emitters` are the scene's.
   Film(int width, int height, double max_radiance, std::vector<Emitter> emitters = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Samples that every pixel has: how many, and which.
+  /// The samples that every pixel has: how many, and which.
   int samples() const { return count_of(ranges_); }
   const SampleRanges& ranges() const { return ranges_; }
-  /// Samples are taken from this one on; 0 where it is not called.
+  /// Sets the first sample to take; 0 if this is not called.
   void go_on_from(int first) { from_ = first; }
-  /// The samples to be taken next.
+  /// The samples to take next.
   SampleRange missing() const { return first_gap(ranges_, from_); }
-  /// Says that every pixel has got the first `count` of those.
+  /// Records that every pixel has the first `count` of them.
   void finish_pass(int count) { add_range(ranges_, {missing().first, count}); }
 
-  /// Adds a sample's radiance to each of a run of pixels, `rgb` three floats a pixel. Negative and non-finite values
-  /// are counted in invalid() and add nothing; values and sums that do not fit stop at the largest and are counted in
-  /// saturated(). Threads may add to different pixels at the same time.
+  /// Adds one sample's radiance to each of a run of pixels; `rgb` has three floats per pixel. Negative and non-finite
+  /// values add nothing and are counted in invalid(). Values and sums that are too large become the largest and are
+  /// counted in saturated(). Threads may add to different pixels at the same time.
   void add(int first_pixel, int half, std::span<const float> rgb);
   /// The same for one pixel.
   void add(int pixel, int half, float r, float g, float b) { add(pixel, half, std::array{r, g, b}); }
 
-  /// Adds to what pixels have already of a sample of that half, from any thread and in any order.
+  /// Adds the splats of a sample of that half, from any thread and in any order.
   void add(int half, std::span<const Splat> splats);
 
-  /// Adds all samples of another film. Throws std::invalid_argument where both have a sample, or sums of other units.
+  /// Adds all samples of another film. Throws std::invalid_argument where the films share a sample or have sums in
+  /// different units.
   void add(const Film& other);
 
-  /// Adds to the counters that trace() has for the emitters, from any thread.
+  /// Adds what trace() counted for each emitter, from any thread.
   void add_by_chance(std::span<const std::uint64_t> counters);
   const std::vector<Emitter>& emitters() const { return emitters_; }
   /// See chance_counters().
@@ -67,7 +68,7 @@ class Film {
   std::uint64_t invalid() const { return invalid_; }
   std::uint64_t saturated() const { return saturated_; }
 
-  /// Samples that every pixel has in half h (0 or 1).
+  /// Number of samples that every pixel has in half h (0 or 1).
   int half_samples(int h) const { return half_count_of(ranges_, h); }
   /// Sum of the radiance samples of one pixel in half h, W/(m^2 sr).
   std::array<double, 3> half_sum(int pixel, int h) const {
@@ -79,25 +80,25 @@ class Film {
   Image mean() const;
   /// Mean over the samples of half h (0 or 1); black where it has none.
   Image half_mean(int h) const;
-  /// Standard error of mean() as seen from the halves: |h0 - h1| sqrt(n0 n1) / (n0 + n1) with n0, n1 samples in them.
-  /// Its square is an unbiased estimate of the variance of the mean, also for correlated samplers; one pixel alone is
-  /// noisy (one degree of freedom). Infinite where a half has no sample.
+  /// Standard error of mean(), estimated from the means h0 and h1 of the halves, which have n0 and n1 samples:
+  /// |h0 - h1| sqrt(n0 n1) / (n0 + n1). Its square is an unbiased estimate of the variance of the mean, also for
+  /// correlated samplers. One pixel's estimate is noisy (one degree of freedom). Infinite where a half has no sample.
   Image standard_error() const;
 
-  /// For files: the sums of half h, three a pixel, units of 1 / scale() and below 2^63.
+  /// For files: the sums of half h, three per pixel, in units of 1 / scale() and below 2^63.
   std::span<const std::uint64_t> sums(int h) const { return sums_[static_cast<std::size_t>(h)]; }
   std::span<std::uint64_t> sums(int h) { return sums_[static_cast<std::size_t>(h)]; }
   double scale() const { return scale_; }
-  /// Says what sums that were read from a file hold.
+  /// Sets what the sums hold after they were read from a file.
   void set_contents(const SampleRanges& ranges, std::uint64_t invalid, std::uint64_t saturated) {
     ranges_ = ranges;
     invalid_ = invalid;
     saturated_ = saturated;
   }
 
-  /// Bytes of the sums of a pixel.
+  /// Bytes of a pixel's sums.
   static constexpr std::size_t pixel_bytes = 2 * 3 * sizeof(std::uint64_t);
-  /// Bytes held.
+  /// Bytes that this film takes.
   std::size_t bytes() const {
     return sizeof(Film) + (sums_[0].capacity() + sums_[1].capacity()) * sizeof(std::uint64_t);
   }
@@ -106,7 +107,8 @@ class Film {
   double radiance(std::uint64_t sum) const {
     return static_cast<double>(static_cast<std::int64_t>(sum)) * (1 / scale_);
   }
-  /// In units of the fixed point, above the largest sum where it does not fit; counts what is no radiance.
+  /// The value in units of the fixed point. A value that does not fit becomes more than the largest sum. A value that
+  /// is no radiance is counted and becomes 0.
   std::uint64_t checked_units(float value);
   void add_unusual(std::uint64_t& sum, float value);
 
@@ -115,13 +117,13 @@ class Film {
   int from_ = 0;
   SampleRanges ranges_;
   double scale_ = 1;              ///< a power of two
-  std::uint32_t limit_bits_ = 0;  ///< of the smallest float that does not fit into a sum
+  std::uint32_t limit_bits_ = 0;  ///< bits of the smallest float that units() cannot convert
   std::uint64_t invalid_ = 0;
   std::uint64_t saturated_ = 0;
   std::vector<Emitter> emitters_;
   std::vector<std::uint64_t> by_chance_;
   std::array<std::vector<std::uint64_t, ZeroedMemory<std::uint64_t>>, 2>
-      sums_;  ///< by half; three a pixel, units of 1/scale_, below 2^63
+      sums_;  ///< for each half three per pixel, in units of 1/scale_, below 2^63
 };
 
 }  // namespace glimt

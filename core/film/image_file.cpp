@@ -26,7 +26,7 @@ Format format_of(const std::filesystem::path& file) {
                        "\"; allowed are .png (displayed picture), .exr and .pfm (linear radiance)");
 }
 
-/// f(), with whatever it throws as an ImageFileError that names the file.
+/// Returns f(), and turns what it throws into an ImageFileError that names the file.
 template <class F>
 auto naming(const std::filesystem::path& file, F f) {
   try {
@@ -79,8 +79,8 @@ void write_image(const std::filesystem::path& file, const Film& film, const Disp
 }
 
 std::uint64_t bytes_to_write(const std::filesystem::path& file, int width, int height) {
-  // Radiance (12), and what encodes it. An EXR has its error too, and its bytes in a stream that doubles when it grows
-  // (48) and in a copy (24).
+  // Bytes per pixel: radiance (12) and its encoding. An EXR also has the error (12), its bytes in a stream that doubles
+  // when it grows (48), and a copy of them (24).
   const std::uint64_t per_pixel = format_of(file) == Format::exr ? 96 : 28;
   return per_pixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }

@@ -6,8 +6,8 @@
 
 #include "film/image_file.h"
 
-/// Files' bytes, by format. The decoders throw std::runtime_error where the bytes are not whole and sound; the message
-/// does not name the file.
+/// Encodes and decodes the bytes of each format. Decoders throw std::runtime_error where bytes are missing or damaged.
+/// The message does not name the file.
 namespace glimt {
 
 inline constexpr std::string_view metadata_prefix = "glimt:";
@@ -27,7 +27,7 @@ Image decode_exr(std::string_view bytes);
 Metadata decode_exr_metadata(std::string_view bytes);
 
 std::string encode_pfm(const Image& image);
-/// True where the bytes begin as a colour or grey PFM does.
+/// Whether the bytes begin like a colour or grey PFM.
 bool is_pfm(std::string_view bytes);
 Image decode_pfm(std::string_view bytes);
 

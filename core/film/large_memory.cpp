@@ -25,7 +25,7 @@ void use_huge_pages(void* memory, std::size_t bytes) {
 void* allocate_zeros(std::size_t bytes) {
   if (!is_large(bytes)) return std::calloc(bytes, 1);
   if (bytes > SIZE_MAX / 2) return nullptr;
-  // A page more than needed, so that whole ones can be cut out of it.
+  // One page more than needed, so that aligned huge pages can be cut out.
   const std::size_t size = whole_pages(bytes);
   std::size_t left = size + huge_page;
   void* const start = mmap(nullptr, left, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

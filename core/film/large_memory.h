@@ -3,19 +3,19 @@
 #include <cstddef>
 #include <new>
 
-/// Memory of films and pictures. The system hands out memory in pages. With pages of 4 kB this takes longer than
-/// tracing a path through every pixel of the film. With huge pages, where the system has them, it takes no time.
+/// Memory for films and pictures. The system hands out memory in pages. With pages of 4 kB this takes longer than
+/// tracing one path through every pixel of the film. With huge pages, if the system has them, it takes next to no time.
 namespace glimt {
 
-/// Asks for huge pages in memory that has not been written to yet.
+/// Asks the system for huge pages. The memory must not have been written to yet.
 void use_huge_pages(void* memory, std::size_t bytes);
 
-/// Zeros; null where there is no memory.
+/// Allocates memory filled with zeros; null where there is none.
 void* allocate_zeros(std::size_t bytes);
 void free_zeros(void* memory, std::size_t bytes);
 
-/// Allocates memory that the system has filled with zeros. Nothing writes to it first, so a large film is there at once
-/// and takes a page only when a sample is added to it.
+/// An allocator of memory that the system fills with zeros. Nothing writes to it first. So making a large film takes no
+/// time, and the film takes a page only when a sample is added to it.
 template <class T>
 struct ZeroedMemory {
   using value_type = T;

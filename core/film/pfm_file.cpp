@@ -8,8 +8,8 @@
 
 #include "film/image_formats.h"
 
-// Portable float map (Debevec): "PF" colour or "Pf" grey, width, height, and a scale whose sign is minus for
-// little-endian, each followed by white space; then floats, rows from the bottom up.
+// Portable float map (Debevec). The header is "PF" for colour or "Pf" for grey, width, height and scale, each followed
+// by white space. A negative scale means little-endian. Then come floats, rows from the bottom up.
 namespace glimt {
 namespace {
 
@@ -17,7 +17,7 @@ constexpr std::string_view white_space = " \t\r\n";
 
 std::uint32_t swapped(std::uint32_t v) { return v >> 24 | (v >> 8 & 0xff00) | (v << 8 & 0xff0000) | v << 24; }
 
-/// Takes one number and the white space before it off the front.
+/// Removes white space and one number from the front and returns the number.
 template <class T>
 T take_number(std::string_view& bytes, const char* name) {
   bytes.remove_prefix(std::min(bytes.find_first_not_of(white_space), bytes.size()));

@@ -37,12 +37,12 @@ std::string chunk(std::string_view type, std::string_view data) {
   return big_endian(static_cast<std::uint32_t>(data.size())) + body + big_endian(checksum(body));
 }
 
-/// Uncompressed, with empty language tag and translated keyword.
+/// An iTXt chunk: uncompressed, with empty language tag and translated keyword.
 std::string text_chunk(const std::string& key, const std::string& text) {
   return chunk(text_type, std::string(metadata_prefix) + key + std::string(5, '\0') + text);
 }
 
-/// Takes one text chunk's data apart; leaves out what glimt did not write.
+/// Reads the data of one text chunk; skips what glimt did not write.
 void read_text(std::string_view data, Metadata& metadata) {
   const std::size_t keyword_end = data.find('\0');
   if (!data.starts_with(metadata_prefix) || keyword_end == data.npos) return;
@@ -65,7 +65,7 @@ std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb,
   const auto append = [](void* context, void* data, int size) {
     static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
   };
-  // What suits noise: the filter by the mean of the pixels left and above, and no long search for repetitions.
+  // This suits noise: the filter predicts the mean of the pixels left and above, and no long search for repetitions.
   [[maybe_unused]] static const bool chosen = [] {
     stbi_write_force_png_filter = 3;
     stbi_write_png_compression_level = 5;

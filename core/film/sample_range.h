@@ -15,24 +15,24 @@ struct SampleRange {
   bool operator==(const SampleRange&) const = default;
 };
 
-/// In order; no two overlap or touch.
+/// Ranges in order, of which no two overlap or touch.
 using SampleRanges = std::vector<SampleRange>;
 
-/// Samples in all of the ranges.
+/// Number of samples in all ranges.
 int count_of(const SampleRanges& ranges);
-/// Those of half h: samples 2k + h.
+/// Number of those in half h: samples 2k + h.
 int half_count_of(const SampleRanges& ranges, int h);
 
-/// Throws std::invalid_argument where they overlap.
+/// Adds a range. Throws std::invalid_argument where it overlaps one that is there.
 void add_range(SampleRanges& ranges, SampleRange added);
 
-/// The first samples that both have.
+/// The first range of samples that both have.
 std::optional<SampleRange> overlap_of(const SampleRanges& a, const SampleRanges& b);
 
-/// The first samples from `from` on that are missing; they go on to the largest int where no range follows.
+/// The first range of missing samples from `from` on. It goes on to the largest int if no range follows.
 SampleRange first_gap(const SampleRanges& ranges, int from);
 
-/// FIRST:COUNT of each, as --samples takes it: "0:64,128:64".
+/// FIRST:COUNT of each range, as --samples takes one: "0:64,128:64".
 std::string ranges_text(const SampleRanges& ranges);
 
 /// "sample 7", "samples 0 to 63".

@@ -32,10 +32,10 @@ double mean_without_largest(std::vector<double>& errors, std::size_t left_out) {
   return std::accumulate(errors.begin(), kept, 0.0) / static_cast<double>(kept - errors.begin());
 }
 
-/// A relative error; 0 where a black picture has none.
+/// The relative error square / of; 0 where both are 0, as in a black picture.
 double ratio(double square, double of) { return square > 0 ? square / of : 0; }
 
-/// 99 % of ratios of two independent chi-square variables, each over its `degrees` of freedom, are below this
+/// The 99 % quantile of the ratio of two independent chi-square variables, each divided by its `degrees` of freedom
 /// (Paulson's approximation, 1942). Infinite for so few degrees that nothing can be said.
 double largest_ratio(double degrees) {
   if (!(degrees > 0)) return std::numeric_limits<double>::infinity();
@@ -90,9 +90,9 @@ namespace {
 
 constexpr int block_size = 8, part_size = 4;  // pixels
 
-/// What pixels add to the estimates, before the factor for halves and pixels.
+/// Sums over pixels for the estimates, before the factor for halves and pixels.
 struct ErrorSums {
-  double relmse = 0, scaled = 0, scaled_squares = 0;  ///< the last: of what parts add to `scaled`
+  double relmse = 0, scaled = 0, scaled_squares = 0;  ///< the last: squares of what each part adds to `scaled`
 
   void operator+=(const ErrorSums& other) {
     relmse += other.relmse;
@@ -106,15 +106,16 @@ struct HalfMeans {
   std::array<double, 3> a, b;
 };
 
-/// A part of a block: 4x4 pixels, or what of them is in the picture. Values are by row, pixel and channel.
+/// A part of a block: those of 4x4 pixels that are in the picture. Values are ordered by row, pixel and channel.
 struct BlockPart {
   static constexpr std::size_t row_values = 3 * part_size, values = row_values * part_size;
   int width = 0, height = 0;
   std::array<double, 3> sum{};
   std::array<double, values> own{}, low{},
-      high{};  ///< mean of all samples; the halves' means, the lower and the higher
+      high{};  ///< mean of all samples; the lower and the higher of the halves' means
 
-  /// Of a picture of that size, from (x0, y0) on. means(pixel) is its HalfMeans; `share`: of the samples in the first.
+  /// The part whose upper left pixel is (x0, y0). means(pixel) gives HalfMeans; the first half has `share` of the
+  /// samples.
   template <class Means>
   BlockPart(int picture_width, int picture_height, int x0, int y0, double share, Means means)
       : width(std::clamp(picture_width - x0, 0, part_size)), height(std::clamp(picture_height - y0, 0, part_size)) {
@@ -132,14 +133,14 @@ struct BlockPart {
 
   int pixels() const { return width * height; }
 
-  /// The square of what the radiance is most likely to be; core/README.md, "Without a scale".
+  /// The likely square of the radiance; see core/README.md, "Without a scale".
   double likely_square(std::size_t k, std::size_t c) const {
     const double around = pixels() > 1 ? (sum[c] - own[k]) / (pixels() - 1) : own[k];
     const double bright = std::max(around, low[k]);
     return own[k] < around / 2 ? low[k] * high[k] : bright * bright;
   }
 
-  /// `block`: mean of the block around.
+  /// The part's sums; `block` is the mean of the block that holds it.
   ErrorSums errors(const std::array<double, 3>& block, double scaled_floor) const {
     std::array<double, 3> relmse{}, scaled{};
     for (std::size_t k = 0; k < values; k += 3)
@@ -153,7 +154,7 @@ struct BlockPart {
   }
 };
 
-/// Of the block whose upper left pixel is (x, y).
+/// The sums of the block whose upper left pixel is (x, y).
 ErrorSums errors_in(const Film& film, int x, int y, double scaled_floor) {
   const double n0 = film.half_samples(0), n1 = film.half_samples(1);
   const auto means = [&](int pixel) {
@@ -199,7 +200,7 @@ ErrorEstimate estimate_error(const Film& film) {
   const double picture_mean = mean_of(film), scaled_floor = scaled_dark(picture_mean);
   const int block_rows = (film.height() + block_size - 1) / block_size;
 
-  // One sum per row of blocks, added in order: the same value for any number of threads.
+  // One sum per row of blocks, added in order, gives the same value for any number of threads.
   std::vector<ErrorSums> rows(static_cast<std::size_t>(block_rows));
 #pragma omp parallel for if (film.width() * film.height() > (1 << 16))
   for (int row = 0; row < block_rows; ++row)
@@ -211,14 +212,14 @@ ErrorEstimate estimate_error(const Film& film) {
   ErrorEstimate result{.relmse = all.relmse * per_value, .relmse_scaled = all.scaled * per_value};
   Unseen unseen = unseen_light(film, picture_mean);
   if (!(picture_mean > 0)) {
-    // A black picture tells nothing: its light may not have been found yet.
+    // A black picture tells nothing about its error: light may not have been found yet.
     result.relmse_scaled = std::numeric_limits<double>::infinity();
     result.unseen = std::move(unseen);
     return result;
   }
   result.low = result.high = result.relmse_scaled;
   if (all.scaled > 0) {
-    // U - 2 for the U parts of core/README.md.
+    // The degrees of freedom are U - 2, with U as in core/README.md.
     const double spread = largest_ratio(3 * all.scaled * all.scaled / all.scaled_squares - 4);
     result.low /= spread;
     result.high *= spread;

@@ -9,7 +9,7 @@
 namespace glimt {
 namespace {
 
-/// Hits from which on the two halves tell the error of the light themselves.
+/// With this many hits, the two halves tell the error of the light by themselves.
 constexpr double enough_hits = 20;
 
 constexpr std::array<const char*, chance_ways> way_names{"thin lamps", "lamps in mirrors and glass",
@@ -32,7 +32,7 @@ std::string names_of(Predicate f) {
 }  // namespace
 
 double missing_events(double found) {
-  // The sum of a Poisson distribution over 0 ... found, for a fractional `found` between its neighbours' sums.
+  // The Poisson probability of 0 ... found events; for a fractional `found`, interpolated between its neighbours.
   const auto at_most = [&](double mean) {
     double term = std::exp(-mean), sum = 0;
     const double whole = std::floor(found);
@@ -67,7 +67,7 @@ Unseen unseen_light(const Film& film, double picture_mean) {
   const double total = picture_mean + all;
   const auto relmse_of = [&](double part) { return part / (2 * std::sqrt(scaled_dark(total))); };
   const double mirror_paths = static_cast<double>(film.by_chance().back());
-  const double mirror_pixels = (mirror_paths + 3 + 2 * std::sqrt(mirror_paths)) / paths;  // at most, 95 of 100
+  const double mirror_pixels = (mirror_paths + 3 + 2 * std::sqrt(mirror_paths)) / paths;  // upper bound in 95 of 100
   const double relmse = std::min(relmse_of(mirrored), mirror_pixels) + relmse_of(all - mirrored);
   return {all / total, std::min(relmse, 1.0), names_of([&](std::size_t way) { return missing[way] > 0; })};
 }

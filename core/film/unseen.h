@@ -4,25 +4,25 @@
 
 #include "film/film.h"
 
-/// What a picture may lack of the light that only chance can find. Derived in core/README.md, "What has not been
-/// found".
+/// How much light a picture may still lack, of the light that only BSDF sampling finds. Derived in core/README.md,
+/// "What has not been found".
 namespace glimt {
 
-/// In 95 of 100 pictures like this one no more is missing than it says.
+/// Upper bounds of what is missing, which hold in 95 of 100 pictures like this one.
 struct Unseen {
   double flux = 0;    ///< share of the picture's light that may be missing, 0 to 1
-  double relmse = 0;  ///< relmse_scaled that what is missing may add, 0 to 1
-  std::string light;  ///< what light it is, in words; empty where nothing is missing
+  double relmse = 0;  ///< what the missing light may add to relmse_scaled, 0 to 1
+  std::string light;  ///< names of that light; empty where nothing is missing
 };
 
-/// `picture_mean`: of the film, over pixels and channels.
+/// `picture_mean` is the film's mean over pixels and channels.
 Unseen unseen_light(const Film& film, double picture_mean);
 
-/// What light is left to chance, in words; empty where none is.
+/// Names of the light that only BSDF sampling finds; empty where there is none.
 std::string light_by_chance(const std::vector<Emitter>& emitters);
 
-/// By how much more than `found` events might have been expected, as a Poisson distribution with that mean gives
-/// `found` or fewer events once in 20 times: 3.0 for none.
+/// How many more than `found` events may have been expected: a Poisson distribution with mean found + the result gives
+/// `found` or fewer events once in 20 times. 3.0 for none found.
 double missing_events(double found);
 
 }  // namespace glimt

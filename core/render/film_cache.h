@@ -11,24 +11,24 @@
 
 namespace glimt {
 
-/// A film and what it takes to go on with it.
+/// A film and all that rendering needs to go on with it.
 struct Accumulation {
   Film film;
-  double seconds = 0;        ///< of rendering so far
-  ErrorEstimate estimate{};  ///< of the film's samples
-  int pass = 0;              ///< samples per pixel of a pass that was cancelled and is in the film in part; 0: none
+  double seconds = 0;        ///< rendering time so far
+  ErrorEstimate estimate{};  ///< error of the film's samples
+  int pass = 0;              ///< samples per pixel of a cancelled pass, of which the film holds a part; 0: none
   PassProgress progress;     ///< of that pass
 };
 
-/// Recent films by scene and settings (without the target), the longest unused of them forgotten where all together
-/// take too much memory.
+/// Recent films, by scene and settings without the target. Where they take too much memory, the film that was not used
+/// for the longest time is dropped.
 class FilmCache {
  public:
   explicit FilmCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// Keeps it, unless it holds so few paths that they are traced anew in an instant.
+  /// Keeps a film, unless it has so few paths that tracing them again takes no time.
   void put(const Scene& scene, Accumulation accumulation);
-  /// Hands over what is kept of the scene, if anything.
+  /// Removes and returns the film of the scene, if one is kept.
   std::optional<Accumulation> take(const Scene& scene);
   std::size_t bytes() const;
 

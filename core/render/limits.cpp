@@ -20,14 +20,14 @@ namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// The number that a file holds; none where it says "max".
+/// The number in a file; none where the file says "max".
 std::optional<std::uint64_t> number_in(const fs::path& file) {
   std::ifstream stream(file);
   std::uint64_t number = 0;
   return stream >> number ? std::optional(number) : std::nullopt;
 }
 
-/// The number behind the words at the beginning of a line: "MemAvailable:  1234 kB".
+/// The number after these words at the beginning of a line, as in "MemAvailable:  1234 kB".
 std::optional<std::uint64_t> number_after(const fs::path& file, std::string_view words) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -39,13 +39,13 @@ std::optional<std::uint64_t> number_after(const fs::path& file, std::string_view
 
 std::uint64_t rest(std::uint64_t limit, std::uint64_t used) { return limit - std::min(limit, used); }
 
-/// What the files of a version of control groups are called.
+/// Names of files in one version of control groups.
 struct GroupFiles {
   const char *limit, *used;
-  const char* cache;  ///< in memory.stat: pages of files that make room
+  const char* cache;  ///< line of memory.stat: file pages that the system can drop
 };
 
-/// Left in a group and in all above it, up to where the groups are mounted.
+/// The least that is left in a group and in all groups above it, up to the mount point.
 std::uint64_t left_in_groups(const fs::path& mount, const std::string& group, const GroupFiles& files) {
   std::uint64_t left = unlimited;
   for (fs::path path = fs::path(group).relative_path();; path = path.parent_path()) {
@@ -59,7 +59,8 @@ std::uint64_t left_in_groups(const fs::path& mount, const std::string& group, co
   }
 }
 
-/// Lines of /proc/self/cgroup are "0::/group" (version 2) and "4:memory:/group" (version 1).
+/// The least that is left in all groups of this program. Lines of /proc/self/cgroup are "0::/group" (version 2) and
+/// "4:memory:/group" (version 1).
 std::uint64_t left_in_groups(const fs::path& root) {
   constexpr GroupFiles version1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
   constexpr GroupFiles version2{"memory.max", "memory.current", "inactive_file"};
@@ -94,7 +95,7 @@ int startable_threads(int wanted) {
   std::vector<std::jthread> threads;
   try {
     while (static_cast<int>(threads.size()) + 1 < wanted) threads.emplace_back([&end] { end.wait(); });
-  } catch (const std::exception&) {  // no thread more, or no memory for its stack
+  } catch (const std::exception&) {  // no further thread, or no memory for its stack
   }
   end.count_down();
   return static_cast<int>(threads.size()) + 1;

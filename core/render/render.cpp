@@ -11,11 +11,12 @@ namespace glimt {
 
 namespace {
 
-constexpr int tile_size = 32;      ///< pixels, square
-constexpr int block_paths = 4096;  ///< paths a thread traces before it looks up; their radiance fits the cache
+constexpr int tile_size = 32;  ///< side of a square tile, pixels
+constexpr int block_paths =
+    4096;  ///< paths that a thread traces before it checks `cancel`; their radiance fits the cache
 constexpr int light_block_paths = 1024;
 
-/// Squares that cover the film. A thread has one to itself, so no two add to the same pixel.
+/// Tiles that cover the film. One thread works on a tile at a time, so no two threads add to the same pixel.
 std::vector<PathBlock> tiles_of(const Film& film) {
   std::vector<PathBlock> tiles;
   for (int y = 0; y < film.height(); y += tile_size)
@@ -53,7 +54,7 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
   std::exception_ptr failure;
   std::mutex failure_mutex;
 
-  // trace(first sample) returns for how many samples it has traced its part. Exceptions must not leave a parallel loop.
+  // trace(first sample) returns how many samples of its part it has traced. Exceptions must not leave a parallel loop.
   const auto all_samples = [&](std::ptrdiff_t part, auto trace) {
     try {
       for (int& first = done[static_cast<std::size_t>(part)]; first < count;) {
@@ -90,7 +91,7 @@ bool render_pass(const CompiledScene& scene, Film& film, int count, const Execut
         return block.samples;
       });
     }
-    // Splats go to all pixels, which from here on no thread has to itself.
+    // Splats go to any pixel, so from here on threads share all pixels.
 #pragma omp for schedule(dynamic)
     for (std::ptrdiff_t i = 0; i < light_count; ++i) {
       all_samples(tile_count + i, [&](int sample) {

@@ -10,21 +10,22 @@
 
 namespace glimt {
 
-/// How the work is spread; none of it changes a bit of the image.
+/// How the work is divided. This does not change one bit of the image.
 struct Execution {
-  int threads = 0;              ///< 0: all the machine has
+  int threads = 0;              ///< 0: as many as the machine has
   Lanes lanes = Lanes::native;  ///< paths side by side in one thread
 };
 
-/// An empty film of the size and with the fixed-point scale that the scene asks for.
+/// An empty film with the scene's size and fixed-point scale.
 Film make_film(const CompiledScene& scene);
 
-/// How far a cancelled pass has come: samples of it that each tile of the film has. Empty between passes.
+/// How far a cancelled pass has come: for each tile of the film and each block of light paths, how many of the pass's
+/// samples are done. Empty between passes.
 using PassProgress = std::vector<int>;
 
-/// Adds the first `count` of the film's missing() samples to every pixel, on all threads. Returns false where `cancel`
-/// (may be null) became true on the way; the film then holds a part of the pass, and is good for nothing but going on
-/// with the same pass (the same scene, count and `progress`) or clearing. Rethrows what a thread throws.
+/// Adds the first `count` of the film's missing() samples to every pixel, on all threads. Returns false if `cancel`
+/// (may be null) became true on the way. The film then holds part of the pass; the only use for it is to go on with the
+/// same scene, count and `progress`. Rethrows what a thread throws.
 bool render_pass(const CompiledScene& scene, Film& film, int count, const Execution& execution,
                  const std::atomic<bool>* cancel = nullptr, PassProgress* progress = nullptr);
 

@@ -16,15 +16,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double pass_seconds = 0.04;  ///< between new images; edits do not wait for it
+constexpr double pass_seconds = 0.04;  ///< time between new images; edits do not wait for it
 constexpr int preview_paths =
-    60'000;  ///< of the coarse image that answers an edit within a frame: about 10 ms on two cores
-/// After a preview the session waits so long for the next edit before it makes a film. So while a slider is dragged it
-/// shows previews only.
+    60'000;  ///< paths of the coarse image that answers an edit at once: about 10 ms on two cores
+/// How long the session waits for the next edit after a preview, before it makes a film. So while a slider is dragged
+/// it shows only previews.
 constexpr auto edit_pause = std::chrono::milliseconds(20);
 constexpr int first_estimate = 8;  ///< samples before the estimated error is trusted as a target
 
-/// Pixels of the image, along x and y, that one pixel of the preview stands for.
+/// Side of the square of image pixels that one pixel of the preview stands for.
 int preview_step(const ImageSize& image) {
   int step = 1;
   while (image.width / step * (image.height / step) > preview_paths) ++step;
@@ -33,7 +33,7 @@ int preview_step(const ImageSize& image) {
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Samples per pixel at which the target is reached, as far as can be told.
+/// Samples per pixel at which the target should be reached, by the present estimate.
 int target_samples(const Settings& settings, const Accumulation& accumulation) {
   if (settings.target_error == 0) return settings.spp;
   const int samples = accumulation.film.samples();
@@ -51,10 +51,10 @@ bool finished(const Settings& settings, const Accumulation& accumulation) {
 struct Session::Job {
   std::shared_ptr<const CompiledScene> compiled;
   std::shared_ptr<const CompiledScene>
-      preview;  ///< the same at a size that is rendered at once; null where that is its own
+      preview;  ///< the same at a smaller size for the preview; null if the image is small enough
   Scene scene;
-  std::uint64_t version = 0;  ///< a new one means another film
-  bool from_zero = false;     ///< whatever is kept
+  std::uint64_t version = 0;  ///< a new version means another film
+  bool from_zero = false;     ///< even if a film of the scene is kept
 };
 
 Session::Session(Execution execution, std::function<void()> on_frame, std::size_t kept_bytes)
@@ -149,11 +149,11 @@ std::shared_ptr<const CompiledScene> Session::compiled() const {
 }
 
 void Session::work() {
-  // The window's thread comes first when all cores are busy. The render threads inherit this.
+  // The window's thread goes first when all cores are busy. Render threads inherit this priority.
   setpriority(PRIO_PROCESS, 0, 10);
   std::shared_ptr<const Job> job;
   Accumulation now;
-  bool shown = false, shown_finished = false, shown_error = false;  // what the newest frame holds of `now`
+  bool shown = false, shown_finished = false, shown_error = false;  // whether the newest frame shows `now`, and how
   for (;;) {
     std::shared_ptr<const Job> before = job;
     bool more = false, with_error = false;
@@ -188,7 +188,7 @@ void Session::work() {
         }
       }
       now = kept ? std::move(*kept) : Accumulation{.film = make_film(*job->compiled), .progress = {}};
-      if (now.pass == 0) now.estimate = estimate_error(now.film);  // the one kept may be of fewer samples
+      if (now.pass == 0) now.estimate = estimate_error(now.film);  // the kept estimate may be of fewer samples
       more = now.film.samples() == 0 || now.pass > 0;
     }
     if (more) render_some(*job, now);
@@ -214,8 +214,8 @@ void Session::render_some(const Job& job, Accumulation& now) {
     const int left = target_samples(job.scene.render, now) - samples;
     now.pass = std::clamp(static_cast<int>(pass_seconds / per_sample), 1, std::max(left, 1));
   }
-  // The first image of a small scene is not cancelled, so that something is shown however fast edits come; for a large
-  // one that is the preview.
+  // The first image of a small size is not cancelled, so that something is shown however fast edits come. For a large
+  // size the preview does that.
   const bool first_image = samples == 0 && !job.preview;
   const Clock::time_point start = Clock::now();
   const bool done =

@@ -14,45 +14,45 @@
 
 namespace glimt {
 
-/// A finished state of the image. Immutable, so the window may keep and show it for as long as it likes.
+/// A finished state of the image. It never changes, so the window may keep and show it as long as it likes.
 struct Frame {
-  std::uint64_t version = 0;    ///< of the edit it shows, as returned by Session::post
+  std::uint64_t version = 0;    ///< version of the scene that it shows, as returned by Session::post
   ImageSize size;               ///< of the image, pixels
   Image mean;                   ///< radiance, linear RGB; smaller than `size` in the coarse preview
-  Image error;                  ///< standard error of `mean`; empty where nobody wants it, and in the preview
-  int samples = 0;              ///< per pixel; 0 for the coarse preview that answers an edit of a large image
-  double seconds = 0;           ///< of rendering since the last restart, pauses left out
+  Image error;                  ///< standard error of `mean`; empty if not wanted, and in the preview
+  int samples = 0;              ///< per pixel; 0 in the coarse preview that answers an edit of a large image
+  double seconds = 0;           ///< rendering time since the last restart, without pauses
   double paths_per_second = 0;  ///< over the same time
-  ErrorEstimate estimate;       ///< of `mean`; infinite below two samples
+  ErrorEstimate estimate;       ///< error of `mean`; infinite below two samples
   bool finished = false;        ///< the target is reached
 };
 
-/// A worker that keeps adding samples while a window edits the scene. All functions may be called from the window's
-/// thread and return at once: none waits for rendering.
+/// A worker that keeps adding samples while a window edits the scene. The window's thread may call all functions; none
+/// waits for rendering.
 class Session {
  public:
-  /// `on_frame` is called on the worker's thread after each new frame and must only wake the window. Films of scenes
-  /// that were shown before are kept up to `kept_bytes`.
+  /// Calls `on_frame` on the worker's thread after each new frame; it must only wake the window. Keeps films of scenes
+  /// that were shown before, up to `kept_bytes`.
   explicit Session(Execution execution = {}, std::function<void()> on_frame = {},
                    std::size_t kept_bytes = std::size_t{512} << 20);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Shows this scene from now on and returns the version its frames will carry. A change of the target alone goes on
-  /// with the samples there are, and a scene that was shown a short while ago with those it had. Throws SceneError for
-  /// a scene that cannot be rendered and then keeps the last one.
+  /// Shows this scene from now on and returns the version of its frames. If only the target changed, rendering goes on
+  /// with the samples there are. A scene whose film is still kept goes on with that film. Throws SceneError for a scene
+  /// that cannot be rendered, and then keeps the last one.
   std::uint64_t post(const Scene& scene);
   /// Begins again at zero samples.
   void restart();
   /// A paused session uses no CPU.
   void set_paused(bool paused);
   bool paused() const;
-  /// Whether frames hold the standard error too; the newest gets it at once.
+  /// Sets whether frames hold the standard error. If so, a frame with it follows at once.
   void set_error_wanted(bool wanted);
   /// The newest frame, or null before the first.
   std::shared_ptr<const Frame> frame() const;
-  /// What the last post was lowered to, or null before the first.
+  /// The compiled scene of the last post, or null before the first.
   std::shared_ptr<const CompiledScene> compiled() const;
 
  private:
@@ -61,7 +61,7 @@ class Session {
   void start(std::shared_ptr<const Job> job, bool cancel);
   void work();
   bool superseded_soon(const Job& job);
-  /// The next edit has come, and its preview is more urgent than another image of this job.
+  /// Whether the next edit has come, whose preview is more urgent than another image of this job.
   bool unwanted(const Job& job) const;
   void render_some(const Job& job, Accumulation& accumulation);
   void show_preview(const Job& job);
@@ -70,15 +70,15 @@ class Session {
 
   Execution execution_;
   std::function<void()> on_frame_;
-  FilmCache kept_;            ///< of the worker
-  mutable std::mutex mutex_;  ///< held for assignments only, never while rendering, copying pixels or uploading
+  FilmCache kept_;            ///< used by the worker only
+  mutable std::mutex mutex_;  ///< held for assignments only, never while rendering or copying pixels
   std::condition_variable wake_;
   std::shared_ptr<const Job> job_;      ///< what to render
-  std::shared_ptr<const Frame> frame_;  ///< what is there to show
+  std::shared_ptr<const Frame> frame_;  ///< what to show
   bool paused_ = false;
   bool error_wanted_ = false;
   bool quit_ = false;
-  std::atomic<bool> cancel_{false};  ///< the running pass is of no use any more
+  std::atomic<bool> cancel_{false};  ///< the running pass is no longer of use
   std::thread worker_;
 };
 
