@@ -22,12 +22,12 @@ enum class FlatColumn {
   count
 };
 
-/// What flat lamps have in common: points corner + a edge_1 + b edge_2, in compiled space.
+/// What flat lamps have in common. Their points are corner + a edge_1 + b edge_2, in compiled space.
 struct FlatLamp {
   glm::dvec3 corner, edge_1, edge_2;
   glm::dvec3 normal;  ///< unit, of the side that shines
 
-  /// Of the parallelogram of its edges, m^2.
+  /// Area of the parallelogram of its edges, m^2.
   double parallelogram_area() const { return length(cross(edge_1, edge_2)); }
 
   void lower(const LampRowWriter& row) const {
@@ -45,7 +45,7 @@ struct FlatLamp {
   }
 };
 
-/// Below this solid angle, in sr, it cannot be computed from angles without loss; points are then chosen by area.
+/// Below this solid angle, in sr, a sum of angles has lost too many digits. Points are then chosen by area.
 inline constexpr float small_solid_angle = 0.02f;
 
 }  // namespace glimt

@@ -7,11 +7,12 @@
 #include "math/table.h"
 #include "math/vec.h"
 
-/// What the shapes of lamps have in common. A shape is a struct, one file each. It holds the lamp in doubles, and has
-///  - area(), body() and lower(): what compile asks for, and how it fills the shape's own columns;
-///  - point(): a point of it, uniform by area;
+/// What the shapes of lamps have in common. Each shape is a struct in its own file. It holds the lamp in doubles, and
+/// has
+///  - area(), body() and lower() for compile; lower() fills the shape's own columns;
+///  - point(): a point of the lamp, uniform by area;
 ///  - by_area: whether light sampling chooses such points;
-///  - sample() and inverse_pdf(), unless it does: how else light sampling chooses a point as seen from another.
+///  - if not, sample() and inverse_pdf(): how light sampling chooses a point as seen from another.
 /// list.h names all shapes.
 namespace glimt {
 
@@ -27,8 +28,7 @@ constexpr LampColumn lamp_column(LampColumn column) {
   return column;
 }
 
-/// Which row of the lamp table is looked at in each lane. With a single row every lane has the same, and nothing is
-/// looked up.
+/// The row of the lamp table that each lane reads. `one`: the table has a single row, so nothing is looked up.
 template <class F, bool one>
 struct LampRow {
   const Table<LampColumn>& table;
@@ -43,7 +43,7 @@ struct LampRow {
       return lookup(values, row);
     }
   }
-  /// Of this column and the two after it.
+  /// The vector in this column and the two after it.
   template <class C>
   Vec3<F> vector(C first) const {
     const int c = static_cast<int>(first);
@@ -67,9 +67,9 @@ struct LampRowWriter {
 
 /// Where a lamp is, in compiled space.
 struct LampBody {
-  std::vector<glm::dvec3> outline;  ///< corners of a flat lamp, or the centre of a round one
-  double radius = 0;                ///< of a round one, else 0
-  glm::dvec3 normal{0};             ///< unit, of a flat one's front
+  std::vector<glm::dvec3> outline;  ///< corners of a flat lamp; the centre of a round one
+  double radius = 0;                ///< radius of a round lamp, else 0
+  glm::dvec3 normal{0};             ///< unit normal of a flat lamp's front
 
   bool round() const { return radius > 0; }
   glm::dvec3 middle() const {
@@ -81,7 +81,7 @@ struct LampBody {
 
 template <class F>
 struct LampPoint {
-  Vec3<F> point, normal;  ///< normal: unit, of the side that shines
+  Vec3<F> point, normal;  ///< normal: unit, on the side that shines
 };
 
 /// A point of a lamp as another point sees it.
@@ -92,7 +92,7 @@ struct SeenLamp {
   F inverse_pdf;      ///< 1 / (pdf_w inverse_choice); 0 where the lamp shows its back
 };
 
-/// How `from` sees a point that is uniform by area (the report's eq. 15): pdf_w = distance^2 / (area cos).
+/// How `from` sees a point that was chosen uniform by area (the report's eq. 15): pdf_w = distance^2 / (area cos).
 template <class F>
 SeenLamp<F> see_point(const Vec3<F>& from, const LampPoint<F>& at) {
   const Vec3<F> way = at.point - from;

@@ -4,7 +4,7 @@
 
 namespace glimt {
 
-/// Sampled by area.
+/// A parallelogram sampled by area.
 struct ParallelogramLamp : FlatLamp {
   static constexpr bool by_area = true;
 

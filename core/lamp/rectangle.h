@@ -9,15 +9,15 @@ namespace glimt {
 
 enum class RectangleColumn { length_1 = static_cast<int>(FlatColumn::count), length_2, count };
 
-/// How a point in front of a rectangle sees it: Urena, Fajardo and King, "An area-preserving parametrization for
-/// spherical rectangles" (EGSR 2013), whose names these are. The local frame has z along the lamp's normal.
+/// How a point in front of a rectangle sees it, with the names of Urena, Fajardo and King, "An area-preserving
+/// parametrization for spherical rectangles" (EGSR 2013). The local frame has z along the lamp's normal.
 template <class F>
 struct RectangleView {
   F x0, x1, y0, y1, z0;  ///< edges of the rectangle, metres; z0 < 0 in front of it
   F b0, b1;              ///< z of the normals of the planes through y0 and y1
   F start;               ///< pi - k
   F solid_angle;
-  Mask<F> small;  ///< too small for its solid angle to be a sum of angles without loss: sampled by area
+  Mask<F> small;  ///< the solid angle is below small_solid_angle: sampled by area
 };
 
 template <class F, bool one>
@@ -35,7 +35,7 @@ RectangleView<F> view_rectangle(const LampRow<F, one>& lamp, const Vec3<F>& from
   r.b0 = F(0.0f) - normal_z(r.y0);
   r.b1 = normal_z(r.y1);
   const F n1 = normal_z(r.x1), n3 = F(0.0f) - normal_z(r.x0);
-  // The paper's angles are pi/2 + these, so that their sum needs no 2 pi taken off.
+  // The paper's angles are pi/2 more than these, so here no 2 pi is subtracted from the sum.
   const F g0 = arcsine(r.b0 * n1), g1 = arcsine(n1 * r.b1), g2 = arcsine(r.b1 * n3), g3 = arcsine(n3 * r.b0);
   r.start = g2 + g3;
   r.solid_angle = g0 + g1 + r.start;
@@ -60,12 +60,12 @@ struct RectangleLamp : FlatLamp {
     return at(lamp, u, v);
   }
 
-  /// A point uniform in the solid angle that the rectangle is seen under; by area where that is small.
+  /// A point uniform in the rectangle's solid angle; uniform by area where that is small.
   template <class F, bool one>
   static SeenLamp<F> sample(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
     const RectangleView<F> r = view_rectangle(lamp, from);
     const F l1 = lamp[RectangleColumn::length_1], l2 = lamp[RectangleColumn::length_2];
-    // x: the paper's f_u is minus (cos(a) b0 + b1) / sin(a) with a = pi - a_u, multiplied out.
+    // x: the paper's f_u is -(cos(a) b0 + b1) / sin(a) with a = pi - a_u; here without that division.
     const F a = fnma(u, r.solid_angle, r.start);
     const SinCos<F> turned = sincos_turns(fma(a, F(0.5f * std::numbers::inv_pi_v<float>), F(0.5f)));  // of a + pi
     const F top = fma(turned.cos, r.b0, F(0.0f) - r.b1);
@@ -89,7 +89,7 @@ struct RectangleLamp : FlatLamp {
     return seen;
   }
 
-  /// Over inverse_choice; the point is at that distance, and the lamp sees `from` at that cosine.
+  /// 1 / (pdf_w inverse_choice) of a point at this distance, at which the lamp sees `from` under cos_lamp.
   template <class F, bool one>
   static F inverse_pdf(const LampRow<F, one>& lamp, const Vec3<F>& from, F distance, F cos_lamp) {
     const RectangleView<F> r = view_rectangle(lamp, from);

@@ -5,19 +5,19 @@
 #include <utility>
 #include <variant>
 
-/// The list of all shapes of lamps, by name, and the columns of their table. list.h has the shapes themselves.
+/// The list of all shapes of lamps by name, and the columns of the lamp table. list.h includes the shapes themselves.
 namespace glimt {
 
 /// Columns of the lamp table.
 enum class LampColumn {
-  shape,  ///< place in the list of shapes, as int32
+  shape,  ///< the shape's place in the list, as int32
   first_surface,
-  last_surface,  ///< surfaces that cannot hide a point of the lamp, as int32: its own flat or convex shape
+  last_surface,  ///< first and last of the lamp's own surfaces, which cannot hide a point of it, as int32
   weight_r,
   weight_g,
   weight_b,         ///< radiance * inverse_choice
-  inverse_choice,   ///< area / probability of choice; only 1 / probability where points are not chosen by area
-  area_factor,      ///< 1 / pdf_a of points uniform by area, over inverse_choice: 1, or the area in m^2
+  inverse_choice,   ///< area / probability of choosing the lamp; 1 / probability where points are not chosen by area
+  area_factor,      ///< 1 / (pdf_a inverse_choice) of points uniform by area: 1, or the area in m^2
   alias_threshold,  ///< see math/alias.h
   alias_other,      ///< as int32
   own,              ///< the first of the shape's own columns
@@ -36,7 +36,7 @@ using LampShape = std::variant<ParallelogramLamp, TriangleLamp, RectangleLamp, T
                                SphereByAreaLamp>;
 inline constexpr std::size_t lamp_shapes = std::variant_size_v<LampShape>;
 
-/// f.operator()<Shape>() for every shape of the list.
+/// Calls f.operator()<Shape>() for every shape of the list.
 template <class Function>
 constexpr void for_each_lamp_shape(Function f) {
   [&]<std::size_t... i>(std::index_sequence<i...>) {
@@ -45,7 +45,7 @@ constexpr void for_each_lamp_shape(Function f) {
   (std::make_index_sequence<lamp_shapes>{});
 }
 
-/// Place of a shape in the list, as it stands in LampColumn::shape.
+/// The shape's place in the list, as in LampColumn::shape.
 template <class Shape>
 inline constexpr std::int32_t lamp_shape_number = [] {
   std::int32_t number = 0, found = -1;

@@ -7,7 +7,7 @@ namespace glimt {
 
 enum class SphereColumn { center_x, center_y, center_z, radius, count };
 
-/// What spherical lamps have in common; they shine outwards.
+/// What spherical lamps have in common. They shine outwards.
 struct RoundLamp {
   glm::dvec3 center;  ///< compiled space
   double radius;      ///< metres
@@ -38,7 +38,7 @@ struct SphereLamp : RoundLamp {
     return {direction, distance, select(cone.outside, cone.solid_angle, F(0.0f))};
   }
 
-  /// Over inverse_choice.
+  /// 1 / (pdf_w inverse_choice).
   template <class F, bool one>
   static F inverse_pdf(const LampRow<F, one>& lamp, const Vec3<F>& from, F /*distance*/, F /*cos_lamp*/) {
     const Vec3<F> to_centre = lamp.vector(SphereColumn::center_x) - from;
@@ -48,7 +48,7 @@ struct SphereLamp : RoundLamp {
   }
 };
 
-/// A sphere sampled by area: half of the points are on its far side.
+/// A sphere sampled by area. At least half of the points are on its far side.
 struct SphereByAreaLamp : RoundLamp {
   static constexpr bool by_area = true;
 };

@@ -6,13 +6,13 @@
 
 namespace glimt {
 
-/// 1 - cos of half the angle that the cone of a sphere has; without cancellation for small spheres.
+/// 1 - cos of a cone's half angle, from its squared sine; without cancellation for small cones.
 template <class F>
 F cone_one_minus_cos(F sin2) {
   return sin2 * reciprocal(F(1.0f) + sqrt(F(1.0f) - sin2));
 }
 
-/// The cone in which a sphere is seen.
+/// The cone of directions in which a sphere is seen.
 template <class F>
 struct SphereCone {
   Vec3<F> axis;        ///< unit, to the centre
@@ -21,13 +21,13 @@ struct SphereCone {
   F solid_angle;
   Mask<F> outside;  ///< the sphere is seen from outside
 
-  /// A direction, and the distance to the sphere along it.
+  /// A direction and the distance to the sphere along it.
   struct Sample {
     Vec3<F> direction;
     F distance;
   };
 
-  /// Uniform by solid angle.
+  /// A direction uniform in the cone's solid angle.
   Sample sample(F u, F v) const {
     const F one_minus_cos = u * one_minus_cos_max;
     const F cos = F(1.0f) - one_minus_cos;

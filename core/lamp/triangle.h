@@ -22,7 +22,7 @@ struct TriangleLamp : FlatLamp {
   struct Place {
     F a, b;  ///< along the edges, a + b <= 1
   };
-  /// The square folded on its diagonal is the triangle.
+  /// Folds the unit square on its diagonal into the triangle.
   template <class F>
   static Place<F> folded(F u, F v) {
     F a = u, b = v;
@@ -34,15 +34,16 @@ struct TriangleLamp : FlatLamp {
 };
 
 /// How a point sees a triangle: C. Peters, "BRDF importance sampling for polygonal lights" (ACM Trans. Graph. 40(4),
-/// 2021), section 4. Its solid angle is 2 atan2(volume, rest); sampling cuts it in two through the corner `middle`.
+/// 2021), section 4. The solid angle is 2 atan2(volume, moved + kept). Sampling cuts the triangle in two through the
+/// corner `middle`.
 template <class F>
 struct TriangleView {
-  Vec3<F> first, middle, last;  ///< unit, to the corners
-  F volume;                     ///< of the parallelepiped of the three
-  F moved;                      ///< cosines of the angles of `last` with the others
+  Vec3<F> first, middle, last;  ///< unit vectors to the corners
+  F volume;                     ///< volume of their parallelepiped
+  F moved;                      ///< sum of the cosines of the angles between `last` and the others
   F kept;                       ///< 1 + cosine of the angle between the others
   F half_angle;                 ///< half of the solid angle, sr
-  F height;                     ///< of the point above the triangle's plane, metres; 0 behind it
+  F height;                     ///< height of the point above the triangle's plane, metres; 0 behind it
   Mask<F> small;                ///< sampled by area
 };
 
@@ -68,15 +69,15 @@ TriangleView<F> view_triangle(const LampRow<F, one>& lamp, const Vec3<F>& from) 
 struct TriangleBySolidAngleLamp : TriangleLamp {
   static constexpr bool by_area = false;
 
-  /// A point uniform in the solid angle that the triangle is seen under; by area where that is small.
+  /// A point uniform in the triangle's solid angle; uniform by area where that is small.
   template <class F, bool one>
   static SeenLamp<F> sample(const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
     const TriangleView<F> t = view_triangle(lamp, from);
-    // The corner `last` moves along its edge to where the triangle has the share u of the solid angle.
+    // Moves the corner `last` along its edge until the triangle has the share u of the solid angle.
     const auto [sin, cos] = sincos_turns(t.half_angle * u * F(0.5f * std::numbers::inv_pi_v<float>));
     const Vec3<F> half = fma(t.first, fnma(t.moved, sin, t.volume * cos), t.last * (t.kept * sin));
     const Vec3<F> corner = fma(half, F(2.0f) * dot(t.first, half) * reciprocal(dot(half, half)), t.first * F(-1.0f));
-    // Then the cosine to `middle` is uniform on the arc between the two.
+    // On the arc from `middle` to that corner, the cosine to `middle` is uniform.
     const F cos_end = dot(t.middle, corner);
     const F cos_here = fma(cos_end - F(1.0f), v, F(1.0f));
     const F square = fnma(cos_end, cos_end, F(1.0f));
@@ -84,7 +85,7 @@ struct TriangleBySolidAngleLamp : TriangleLamp {
         select(square > F(0.0f),
                sqrt(max(fnma(cos_here, cos_here, F(1.0f)), F(0.0f)) * reciprocal(max(square, F(1e-30f)))), v);
     const Vec3<F> direction = fma(corner, along, t.middle * fnma(along, cos_end, cos_here));
-    // Where that meets the plane (Moeller and Trumbore 1997), so that rounding cannot leave the lamp.
+    // Where the direction meets the plane (Moeller and Trumbore 1997), clamped so that rounding cannot leave the lamp.
     const Vec3<F> e1 = lamp.vector(FlatColumn::edge_1_x), e2 = lamp.vector(FlatColumn::edge_2_x);
     const Vec3<F> way = from - lamp.vector(FlatColumn::corner_x), p = cross(direction, e2);
     const F over = reciprocal(dot(e1, p));
@@ -97,7 +98,7 @@ struct TriangleBySolidAngleLamp : TriangleLamp {
     return seen;
   }
 
-  /// Over inverse_choice; the point is at that distance, and the lamp sees `from` at that cosine.
+  /// 1 / (pdf_w inverse_choice) of a point at this distance, at which the lamp sees `from` under cos_lamp.
   template <class F, bool one>
   static F inverse_pdf(const LampRow<F, one>& lamp, const Vec3<F>& from, F distance, F cos_lamp) {
     const TriangleView<F> t = view_triangle(lamp, from);

@@ -7,15 +7,15 @@
 
 namespace glimt {
 
-/// Share of unpolarised light that a smooth metal reflects, for one wavelength: Fresnel's equations with the complex
-/// index eta + i k, relative to the outside (Born and Wolf, "Principles of Optics", ch. 14).
+/// The share of unpolarised light that a smooth metal reflects, for one wavelength: Fresnel's equations with the
+/// complex index eta + i k relative to the outside (Born and Wolf, "Principles of Optics", ch. 14).
 template <class F>
 F conductor_fresnel(F cos, F eta, F k) {
   const F cos2 = cos * cos, sin2 = max(F(1.0f) - cos2, F(0.0f));
   const F eta2 = eta * eta, k2 = k * k;
   const F difference = eta2 - k2 - sin2;
   const F sum = sqrt(fma(difference, difference, F(4.0f) * eta2 * k2));
-  // Half of sum + difference, which cancels where the difference is negative.
+  // (sum + difference) / 2, without the cancellation where the difference is negative.
   const F half = select(difference > F(0.0f), F(0.5f) * (sum + difference),
                         F(2.0f) * eta2 * k2 * reciprocal(max(sum - difference, F(1e-30f))));
   const F across = sum + cos2, twice = F(2.0f) * cos * sqrt(half);
@@ -49,7 +49,7 @@ struct SmoothConductorLobe {
   }
 };
 
-/// A metal of small mirrors whose normals follow GGX; light that one mirror sends to another is lost.
+/// A metal of microscopic mirrors whose normals follow GGX. Light that one mirror sends to another is lost.
 struct RoughConductorLobe {
   static constexpr std::string_view feature = "rough metal";
   enum Columns { alpha, eta_r, eta_g, eta_b, k_r, k_g, k_b, column_count };
@@ -93,7 +93,7 @@ struct RoughConductorLobe {
   }
 };
 
-/// A metal that is named rather than given by its index.
+/// Metals by name; `given`: eta and k give the index.
 enum class Metal { given, gold, silver, copper, aluminium, iron };
 
 struct Conductor : AnyMaterial {
@@ -104,9 +104,9 @@ struct Conductor : AnyMaterial {
   struct Index {
     glm::dvec3 eta, k;
   };
-  /// Read off measured curves at 650, 550 and 450 nm, as refractiveindex.info has them: Rakic, Djurisic, Elazar and
-  /// Majewski, "Optical properties of metallic films", Applied Optics 37 (1998); iron from Johnson and Christy,
-  /// Physical Review B 9 (1974).
+  /// Measured values at 650, 550 and 450 nm, from refractiveindex.info: Rakic, Djurisic, Elazar and Majewski, "Optical
+  /// properties of metallic films", Applied Optics 37 (1998); iron from Johnson and Christy, Physical Review B 9
+  /// (1974).
   static constexpr std::array<Index, 6> indices{{{},
                                                  {{0.18299, 0.42108, 1.3734}, {3.4242, 2.3459, 1.7704}},
                                                  {{0.15943, 0.14512, 0.13547}, {3.9291, 3.1900, 2.3808}},

@@ -8,12 +8,12 @@ namespace glimt {
 /// A smooth surface between two dielectrics, for unpolarised light.
 template <class F>
 struct Dielectric {
-  F reflected;  ///< share of the light, 0..1; 1 past the critical angle
-  F cos_t;      ///< of the refracted direction to the normal; 0 past the critical angle
+  F reflected;  ///< reflected share of the light, 0..1; 1 beyond the critical angle
+  F cos_t;      ///< cosine of the refracted direction to the normal; 0 beyond the critical angle
 };
 
-/// `cos_i` > 0 to the normal, `eta` = index on the other side over index on this side. Fresnel's equations, or
-/// Schlick's approximation (1994), which takes the angle on the thinner side.
+/// Fresnel's equations, or Schlick's approximation (1994) with the angle on the side of the smaller index. `cos_i` > 0
+/// is the cosine to the normal, `eta` the index on the other side divided by the index on this side.
 template <class F>
 Dielectric<F> fresnel(F cos_i, F eta, F inverse_eta, const Mask<F>& schlick) {
   const F sin2_t = max(fnma(cos_i, cos_i, F(1.0f)), F(0.0f)) * (inverse_eta * inverse_eta);
@@ -30,7 +30,7 @@ Dielectric<F> fresnel(F cos_i, F eta, F inverse_eta, const Mask<F>& schlick) {
   return {select(total, F(1.0f), select(schlick, approximate, exact)), select(total, F(0.0f), cos_t)};
 }
 
-/// Snell's law: where `direction`, moving against the normal, goes on behind the surface.
+/// Snell's law: the direction behind the surface of light that arrives along `direction`, against the normal.
 template <class F>
 Vec3<F> refract(const Vec3<F>& direction, const Vec3<F>& normal, F cos_i, F cos_t, F inverse_eta) {
   return fma(normal, cos_i * inverse_eta - cos_t, direction * inverse_eta);

@@ -12,7 +12,7 @@
 /// surface's frame: z is its normal, cosines are their z.
 namespace glimt {
 
-/// Below it a surface is smooth: its highlight is narrower than a thousandth of a radian.
+/// Below this alpha a surface counts as smooth: the slopes of its facets are below a thousandth.
 inline constexpr double smallest_alpha = 1e-3;
 
 inline constexpr Parameter<double> ggx_roughness{
@@ -26,25 +26,25 @@ template <class F>
 struct Ggx {
   F alpha;  ///< width of the distribution of slopes
 
-  /// sqrt(cos^2 + alpha^2 sin^2): the projected roughness of a direction, which every masking term is made of.
+  /// sqrt(cos^2 + alpha^2 sin^2): the part of every masking term that depends on the roughness.
   F projected(F cos) const {
     const F cos2 = cos * cos;
     return sqrt(fma(alpha * alpha, max(F(1.0f) - cos2, F(0.0f)), cos2));
   }
 
-  /// D, the density of microfacets with normal m over the area of the surface, 1/sr (Walter et al., eq. 33). The sine
-  /// of m comes from x and y, so it keeps its digits near the normal.
+  /// D, the density of microfacets with normal m per area of the surface, 1/sr (Walter et al., eq. 33). The sine of m
+  /// comes from x and y, so it keeps its digits near the normal.
   F density(const Vec3<F>& m) const {
     const F alpha2 = alpha * alpha;
     const F t = fma(m.z * m.z, alpha2, fma(m.x, m.x, m.y * m.y));
     return alpha2 * reciprocal(max(F(std::numbers::pi_v<float>) * t * t, F(1e-30f)));
   }
 
-  /// Density of the normals that are seen from wo, over 2 wo.m: D G1(wo) / (2 cos_o).
+  /// The pdf of the normals visible from wo, divided by 2 wo.m: D G1(wo) / (2 cos_o).
   F visible_density(const Vec3<F>& m, F cos_o) const { return density(m) * reciprocal(cos_o + projected(cos_o)); }
 
-  /// A normal seen from wo, in proportion to the area that it shows (Heitz, "Sampling the GGX distribution of visible
-  /// normals", JCGT 7(4), 2018), by way of a spherical cap (Dupuy and Benyoub, "Sampling visible GGX normals with
+  /// Samples a normal visible from wo, in proportion to its projected area (Heitz, "Sampling the GGX distribution of
+  /// visible normals", JCGT 7(4), 2018), by a spherical cap (Dupuy and Benyoub, "Sampling visible GGX normals with
   /// spherical caps", CGF 42(8), 2023).
   Vec3<F> visible_normal(const Vec3<F>& wo, F u, F v) const {
     const Vec3<F> stretched = normalize(Vec3<F>{wo.x * alpha, wo.y * alpha, wo.z});
@@ -60,7 +60,7 @@ struct Ggx {
     return F(0.5f) * reciprocal(max(fma(cos_i, projected(cos_o), cos_o * projected(cos_i)), F(1e-20f)));
   }
 
-  /// G2 / G1(wo): what is left of the light of a visible normal.
+  /// G2 / G1(wo): the weight of a sample of visible normals.
   F unmasked(F cos_i, F cos_o) const {
     const F of_o = projected(cos_o);
     return cos_i * (cos_o + of_o) * reciprocal(max(fma(cos_i, of_o, cos_o * projected(cos_i)), F(1e-20f)));

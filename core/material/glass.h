@@ -11,7 +11,7 @@ namespace glimt {
 /// Refractive indices at a glass surface, as seen from the side that the path comes from.
 template <class F>
 struct GlassSides {
-  F eta, inverse_eta;  ///< index behind the surface over the index here
+  F eta, inverse_eta;  ///< index behind the surface divided by the index here
   Mask<F> schlick;
 
   template <class Row>
@@ -24,7 +24,8 @@ struct GlassSides {
   }
 };
 
-/// Smooth and clear: reflection or refraction, chosen by Fresnel with the number u, so that neither has a weight.
+/// Smooth, clear glass. The number u chooses reflection or refraction with Fresnel's shares as probabilities, so both
+/// have weight 1.
 struct SmoothGlassLobe {
   static constexpr std::string_view feature = "glass";
   enum Columns { schlick, column_count };
@@ -40,14 +41,14 @@ struct SmoothGlassLobe {
     const Vec3<F> direction = wo * F(-1.0f);
     const Vec3<F> back = fma(row.at.normal, row.at.cos_o + row.at.cos_o, direction);
     const Vec3<F> through = refract(direction, row.at.normal, row.at.cos_o, interface.cos_t, sides.inverse_eta);
-    // Many in a row would let the length drift.
+    // Normalised, because rounding errors of the length would build up over many hits.
     return {
         normalize(select(reflected, back, through)), Vec3<F>::all(F(1.0f)), F(0.0f), !reflected, sides.eta * sides.eta,
         sides.inverse_eta * sides.inverse_eta};
   }
 };
 
-/// Frosted glass: small smooth interfaces whose normals follow GGX (Walter et al. 2007).
+/// Frosted glass: microscopic smooth interfaces whose normals follow GGX (Walter et al. 2007).
 struct RoughGlassLobe {
   static constexpr std::string_view feature = "frosted glass";
   enum Columns { alpha, schlick, column_count };
@@ -87,7 +88,7 @@ struct RoughGlassLobe {
     const Ggx<F> ggx{row(alpha)};
     const F facets =
         F(std::numbers::pi_v<float>) * half.share * ggx.density(half.m) * ggx.visibility(abs(cos_i), cos_o);
-    // 4 wi.m wo.m / (wo.m + eta wi.m)^2: radiance's 1 / eta^2 takes the Jacobian's eta^2 away.
+    // 4 wi.m wo.m / (wo.m + eta wi.m)^2. The factor 1 / eta^2 of radiance cancels the Jacobian's eta^2.
     const F turned = F(2.0f) * half.cos_o * half.jacobian * (half.sides.inverse_eta * half.sides.inverse_eta);
     return Vec3<F>::all(select(half.possible, facets * select(half.reflects, F(1.0f), turned), F(0.0f)));
   }
@@ -101,8 +102,8 @@ struct RoughGlassLobe {
   }
 
  private:
-  /// 2 eta^2 wi.m / (wo.m + eta wi.m)^2 with the cosines' signs: solid angle of normals to that of refracted
-  /// directions (Walter et al., eq. 17), twice.
+  /// Twice the solid angle of normals per solid angle of refracted directions (Walter et al., eq. 17):
+  /// 2 eta^2 wi.m / (wo.m + eta wi.m)^2, with signed cosines.
   template <class F>
   static F refraction_jacobian(const GlassSides<F>& sides, F cos, F cos_t) {
     const F sum = fnma(sides.eta, cos_t, cos);
@@ -114,9 +115,9 @@ struct RoughGlassLobe {
   struct Half {
     GlassSides<F> sides;
     Mask<F> reflects, possible;
-    Vec3<F> m;   ///< its normal, in the surface's frame
+    Vec3<F> m;   ///< the facet's normal, in the surface's frame
     F cos_o;     ///< wo.m
-    F share;     ///< of the light, by Fresnel
+    F share;     ///< share of the light that goes this way, by Fresnel
     F jacobian;  ///< refraction_jacobian
 
     template <class Row>

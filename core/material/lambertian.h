@@ -4,7 +4,7 @@
 
 namespace glimt {
 
-/// Equally bright from everywhere: f = colour / pi.
+/// Equally bright in every direction: f = colour / pi.
 struct LambertianLobe {
   static constexpr LobeClass lobe_class = LobeClass::cosine;
   static constexpr LobeUse use = LobeUse::always;

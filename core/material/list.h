@@ -13,7 +13,7 @@ namespace glimt {
 template <class... Materials>
 struct MaterialList {};
 
-/// Every material there is. The rest of the program knows them by this list alone.
+/// All materials. The rest of the program knows them only through this list.
 using AllMaterials = MaterialList<Lambertian, OrenNayar, Eon, Mirror, Conductor, Glass, Light>;
 
 }  // namespace glimt

@@ -7,7 +7,7 @@
 
 #include "material/list.h"
 
-/// The lobes of all materials: kernels dispatch over them, and the surface table has their columns.
+/// The lobes of all materials. Kernels dispatch over them, and the surface table has their columns.
 namespace glimt {
 
 template <class... Materials>
@@ -16,7 +16,7 @@ auto lobes_of_materials(MaterialList<Materials...>) {
 }
 using Lobes = decltype(lobes_of_materials(AllMaterials{}));
 
-/// Place of a lobe in the list.
+/// The lobe's place in the list.
 template <class L>
 inline constexpr std::size_t lobe_index = []<class... All>(std::tuple<All...>*) {
   std::size_t index = 0;
@@ -24,16 +24,16 @@ inline constexpr std::size_t lobe_index = []<class... All>(std::tuple<All...>*) 
   return index;
 }(static_cast<Lobes*>(nullptr));
 
-/// Lobes of a class have the kinds from kinds_per_class times the class on.
+/// The kinds of a class's lobes begin at kinds_per_class times the class.
 inline constexpr std::int32_t kinds_per_class = 64;
 constexpr std::int32_t first_kind(LobeClass lobe_class) {
   return kinds_per_class * static_cast<std::int32_t>(lobe_class);
 }
-/// What Column::kind holds for surfaces with that lobe.
+/// The value of Column::kind for surfaces with the lobe.
 template <class L>
 inline constexpr std::int32_t lobe_kind = first_kind(L::lobe_class) + static_cast<std::int32_t>(lobe_index<L>);
 
-/// f.template operator()<L>() for every lobe.
+/// Calls f.template operator()<L>() for every lobe.
 template <class Function>
 constexpr void for_each_lobe(Function f) {
   [&]<class... All>(std::tuple<All...>*) { (f.template operator()<All>(), ...); }(static_cast<Lobes*>(nullptr));
@@ -44,7 +44,7 @@ constexpr int column_count_of() {
   if constexpr (requires { L::column_count; }) return static_cast<int>(L::column_count);
   return 0;
 }
-/// First of the lobe's own columns of the surface table, after those that all surfaces have.
+/// The first of the lobe's own columns in the surface table, counted after the columns that all surfaces have.
 template <class L>
 constexpr int first_column() {
   int first = 0;
@@ -56,19 +56,19 @@ constexpr int first_column() {
   return first;
 }
 
-/// Of all lobes.
+/// Number of own columns of all lobes.
 inline constexpr int own_columns = [] {
   int sum = 0;
   for_each_lobe([&]<class L>() { sum += column_count_of<L>(); });
   return sum;
 }();
 
-/// Lobes, a bit each.
+/// A set of lobes, one bit each.
 using LobeSet = std::uint32_t;
 template <class L>
 inline constexpr LobeSet lobe_bit = LobeSet{1} << lobe_index<L>;
 
-/// All lobes of that use and the uses before it.
+/// All lobes of this use or an earlier one.
 constexpr LobeSet lobes_up_to(LobeUse use) {
   LobeSet set = 0;
   for_each_lobe([&]<class L>() {
@@ -76,7 +76,7 @@ constexpr LobeSet lobes_up_to(LobeUse use) {
   });
   return set;
 }
-/// All lobes of that class.
+/// All lobes of the class.
 constexpr LobeSet lobes_of(LobeClass lobe_class) {
   LobeSet set = 0;
   for_each_lobe([&]<class L>() {
@@ -94,7 +94,7 @@ constexpr LobeSet lobes_with(Flag flag) {
   });
   return set;
 }
-/// Lobes by which light goes on behind a surface, and those of spheres that connections pass over.
+/// The lobes that transmit light, and those over which connections pass.
 inline constexpr LobeSet transmitting_lobes = lobes_with([]<class L>() {
   if constexpr (requires { L::transmits; }) return L::transmits;
   return false;
@@ -104,10 +104,10 @@ inline constexpr LobeSet connecting_lobes = lobes_with([]<class L>() {
   return false;
 });
 
-/// The lobe of that kind.
+/// The lobe of the kind.
 constexpr LobeSet lobe_of_kind(std::int32_t kind) { return LobeSet{1} << (kind % kinds_per_class); }
 
-/// The lobe that a material chooses for its surfaces, with what belongs into its columns.
+/// The lobe that a material chooses for its surfaces, with the values of its columns.
 struct ChosenLobe {
   std::int32_t kind = 0;
   LobeSet bit = 0;
@@ -124,7 +124,7 @@ struct ChosenLobe {
   }
 };
 
-/// What the material's type makes of its parameters.
+/// The lobe and columns that the material's parameters give.
 ChosenLobe lower(const Material& material);
 
 }  // namespace glimt

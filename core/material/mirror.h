@@ -4,8 +4,7 @@
 
 namespace glimt {
 
-/// Where a path goes on that came from wo, mirrored at the normal. A hollow mirror multiplies what the length is off at
-/// every hit, so it is made 1 again.
+/// The mirror direction of wo. It is normalised, because in a hollow mirror an error of its length grows at every hit.
 template <class F>
 Vec3<F> mirrored(const Vec3<F>& wo, const Vec3<F>& normal, F cos_o) {
   return normalize(fma(normal, cos_o + cos_o, wo * F(-1.0f)));

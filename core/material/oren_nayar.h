@@ -11,13 +11,13 @@ namespace glimt {
 template <class F>
 struct OrenNayarFactors {
   F a, b;
-  Mask<F> report;  ///< sin(beta) for tan(beta)
+  Mask<F> report;  ///< sin(beta) replaces tan(beta)
 };
 
-/// The BRDF over rho / pi: A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta), alpha the larger and beta the smaller
-/// angle to the normal (Oren and Nayar 1994, eq. 30; the report's eq. 7 prints sin(beta)). No angle is computed: with s
-/// = sin(theta_i) sin(theta_o) cos(phi_i - phi_o) = wi.wo - cos(theta_i) cos(theta_o), sin(alpha) tan(beta) cos(phi_i -
-/// phi_o) is s over the larger cosine.
+/// The BRDF divided by rho / pi: A + B max(0, cos(phi_i - phi_o)) sin(alpha) tan(beta), where alpha is the larger and
+/// beta the smaller angle to the normal (Oren and Nayar 1994, eq. 30; the report's eq. 7 has sin(beta)). No angle is
+/// computed. With s = sin(theta_i) sin(theta_o) cos(phi_i - phi_o) = wi.wo - cos(theta_i) cos(theta_o), the product
+/// cos(phi_i - phi_o) sin(alpha) tan(beta) is s / (the larger cosine).
 template <class F>
 F oren_nayar_factor(const OrenNayarFactors<F>& m, const Vec3<F>& wi, const Vec3<F>& wo, F cos_i, F cos_o) {
   const F s = max(dot(wi, wo) - cos_i * cos_o, F(0.0f));
@@ -25,7 +25,7 @@ F oren_nayar_factor(const OrenNayarFactors<F>& m, const Vec3<F>& wi, const Vec3<
   return fma(m.b, select(m.report, s, s * reciprocal(larger_cos)), m.a);
 }
 
-/// Rough and matt: V-shaped grooves of Lambertian facets.
+/// A rough diffuse surface: V-shaped grooves of Lambertian facets.
 struct OrenNayarLobe {
   static constexpr std::string_view feature = "Oren-Nayar";
   enum Columns { a, b, report, column_count };
@@ -39,13 +39,13 @@ struct OrenNayarLobe {
   }
 };
 
-/// Which of the two printed forms of the Oren-Nayar model is meant.
+/// The two printed forms of the Oren-Nayar model.
 enum class OrenNayarFormula {
   published,  ///< sin(alpha) tan(beta): Oren and Nayar 1994, eq. 30
   report,     ///< sin(alpha) sin(beta): the course report's eq. 7
 };
 
-/// Facets of a normally distributed slope, each Lambertian (Oren and Nayar 1994).
+/// Lambertian facets whose slope angles are normally distributed (Oren and Nayar 1994).
 struct OrenNayar : Matt {
   static constexpr std::string_view name = "oren-nayar", doc = "rough and matt, like clay";
   static constexpr Parameter<double> roughness{.key = "roughness",

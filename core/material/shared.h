@@ -2,10 +2,10 @@
 
 #include "material/lobe.h"
 
-/// What several materials have.
+/// What several materials have in common.
 namespace glimt {
 
-/// What holds of a material that says nothing else.
+/// The defaults of every material.
 struct AnyMaterial {
   static constexpr bool transmits = false, emits = false;
   static glm::dvec3 radiance_of(const Material&) { return glm::dvec3{0}; }
@@ -22,7 +22,7 @@ struct Reflecting : AnyMaterial {
   static glm::dvec3 albedo(const Material& m) { return m.get(reflectance); }
 };
 
-/// A reflecting surface that scatters in all directions, and may glow.
+/// A diffuse surface: it scatters light in all directions, and it may glow.
 struct Matt : Reflecting {
   static constexpr LobeClass lobe_class = LobeClass::cosine;
   static constexpr Parameter<glm::dvec3> emission{

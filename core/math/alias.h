@@ -5,14 +5,15 @@
 /// Choices with given probabilities, by the alias method (Walker 1977; Vose 1991).
 namespace glimt {
 
-/// table[index]; `few`: no more entries than lookup_small can hold.
+/// table[index]; `few`: the table is small enough for lookup_small.
 template <class F, bool few>
 F lookup_in(const float* table, const Int<F>& index) {
   if constexpr (few) return lookup_small(table, index);
   return lookup(table, index);
 }
 
-/// A row of a table of `count`. The table keeps an entry below its threshold, and else takes the other one.
+/// Chooses one of `count` rows. u picks an entry; what is left of u keeps it if below its threshold, and otherwise
+/// takes its alias.
 template <class F, bool few = false>
 Int<F> choose_row(const float* alias_threshold, const float* alias_other, int count, F u) {
   const F place = u * F(static_cast<float>(count));

@@ -5,7 +5,7 @@
 
 namespace glimt {
 
-/// Bounds with sides along the axes; of no points at first, so that `low` is above `high`.
+/// An axis-aligned bounding box. At first it holds no points, and `low` is above `high`.
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -14,7 +14,7 @@ struct Box {
   double size() const { return length(high - low); }
 };
 
-/// Whether they come nearer to each other than the tolerance along every axis.
+/// Whether the boxes are within the tolerance of each other along every axis.
 inline bool meet(const Box& a, const Box& b, double tolerance) {
   return all(lessThanEqual(a.low, b.high + tolerance)) && all(lessThanEqual(b.low, a.high + tolerance));
 }

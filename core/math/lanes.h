@@ -8,10 +8,10 @@
 #include <limits>
 #include <xsimd/xsimd.hpp>
 
-/// Lanes: the kernel is written once for a type F that is either float or a SIMD batch of floats, one path per lane.
-/// This is the only file that names xsimd. The functions below mean the same for every F, and a lane computes the same
-/// value at every width: all are exact (IEEE) or bit-wise, but for quotients and roots on processors with AVX-512,
-/// which divide slowly there. A mask of a batch never converts to bool: ask any() or bits().
+/// Lanes: the kernel is written once for a type F, either float or a SIMD batch of floats with one path per lane. This
+/// is the only file that names xsimd. The functions below mean the same for every F, and a lane computes the same value
+/// at every width. All are exact (IEEE) or bit-wise, except quotients and roots with AVX-512, where exact ones are
+/// slow. A mask of a batch never converts to bool: use any() or bits().
 namespace glimt {
 
 template <class F>
@@ -71,8 +71,8 @@ inline std::uint32_t reverse_bits(std::uint32_t a) {
   return __builtin_bswap32(a);
 }
 
-// Quotients and roots, within 1 ulp. With AVX-512 they start from the processor's 14-bit estimates, which are the same
-// in one lane and in many, and take a Newton step; elsewhere they are exact.
+// Quotients and roots, within 1 ulp. With AVX-512 they take one Newton step from the processor's 14-bit estimates,
+// which are the same in one lane and in many. Elsewhere they are exact.
 
 /// 1 / a, also of zeros and infinities.
 inline float reciprocal(float a) {
@@ -97,7 +97,7 @@ inline float inverse_sqrt(float a) {
 #endif
 }
 
-/// Square root of a positive, finite number; NaN for a negative one, NaN or 0 for 0.
+/// Square root of a positive, finite number. A negative number gives NaN, 0 gives NaN or 0.
 inline float positive_sqrt(float a) {
 #ifdef __AVX512DQ__
   const __m128 v = _mm_set_ss(a);
@@ -109,7 +109,7 @@ inline float positive_sqrt(float a) {
 #endif
 }
 
-/// Square root of a finite number that is not negative.
+/// Square root of a finite number >= 0.
 inline float sqrt(float a) { return a > 0 ? positive_sqrt(a) : 0; }
 
 // Many lanes.
@@ -268,7 +268,7 @@ xsimd::batch<std::uint32_t, A> reverse_bits(xsimd::batch<std::uint32_t, A> a) {
   using U = xsimd::batch<std::uint32_t, A>;
 #if defined(__AVX512BW__) && defined(__GFNI__)
   if constexpr (std::is_same_v<typename U::register_type, __m512i>) {
-    // The bits of every byte, then the bytes of every word.
+    // Reverses the bits of every byte, then the bytes of every word.
     const __m512i bytes = _mm512_gf2p8affine_epi64_epi8(a.data, _mm512_set1_epi64(0x8040201008040201), 0);
     const __m512i order = _mm512_set_epi8(12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
                                           12, 13, 14, 15, 8, 9, 10, 11, 4, 5, 6, 7, 0, 1, 2, 3,  //
@@ -284,7 +284,7 @@ xsimd::batch<std::uint32_t, A> reverse_bits(xsimd::batch<std::uint32_t, A> a) {
   return (a >> 16) | (a << 16);
 }
 
-/// A mask without any lane, and one with all.
+/// A mask with no lane, and one with all lanes.
 template <class F>
 Mask<F> no_lanes() {
   return F(1.0f) < F(0.0f);
@@ -294,7 +294,7 @@ Mask<F> all_lanes() {
   return F(0.0f) < F(1.0f);
 }
 
-/// Consecutive elements from memory, one a lane; `V` is a lane type of float, int32 or uint32.
+/// Loads consecutive elements, one per lane; `V` is a lane type of float, int32 or uint32.
 template <class V, class T>
 V load(const T* from) {
   if constexpr (std::is_arithmetic_v<V>) {
@@ -332,10 +332,10 @@ xsimd::batch<float, A> lookup(const float* table, xsimd::batch<std::int32_t, A> 
   return xsimd::batch<float, A>::gather(table, index);
 }
 
-/// Tables with no more entries than this can be looked up by permuting registers, which is faster than a gather.
+/// Tables with at most this many entries are looked up by permuting registers, which is faster than a gather.
 inline constexpr int small_table = 16;
 
-/// The same for 0 <= index < small_table; the table is 64-byte aligned and has small_table entries.
+/// The same for 0 <= index < small_table. The table is 64-byte aligned and has small_table entries.
 inline float lookup_small(const float* table, std::int32_t index) { return table[index]; }
 
 template <class A>
@@ -349,7 +349,7 @@ xsimd::batch<float, A> lookup_small(const float* table, xsimd::batch<std::int32_
   if constexpr (std::is_same_v<Register, __m256>) {
     const __m256 low = _mm256_permutevar8x32_ps(_mm256_load_ps(table), index.data);
     const __m256 high = _mm256_permutevar8x32_ps(_mm256_load_ps(table + 8), index.data);
-    // Bit 3 of the index chooses the register; blendv looks at the sign bit.
+    // Bit 3 of the index chooses the register. blendv reads the sign bit.
     return F(_mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(index.data, 28))));
   }
 #endif
@@ -358,7 +358,7 @@ xsimd::batch<float, A> lookup_small(const float* table, xsimd::batch<std::int32_
 
 namespace detail {
 
-/// For each 8-bit mask: its lanes one after the other.
+/// For each 8-bit mask, the numbers of its lanes in order.
 inline constexpr auto lane_order = [] {
   std::array<std::array<std::uint8_t, 8>, 256> order{};
   for (unsigned mask = 0; mask < 256; ++mask)
@@ -367,7 +367,7 @@ inline constexpr auto lane_order = [] {
   return order;
 }();
 
-/// For each 8-bit mask and lane: how many lanes below it are in the mask.
+/// For each 8-bit mask and lane, the number of lower lanes in the mask.
 inline constexpr auto lane_rank = [] {
   std::array<std::array<std::uint8_t, 8>, 256> rank{};
   for (unsigned mask = 0; mask < 256; ++mask)
@@ -378,8 +378,8 @@ inline constexpr auto lane_rank = [] {
 
 }  // namespace detail
 
-/// Lanes in the mask take the elements of `from` one after the other, in lane order; the others keep their value. As
-/// many elements as there are lanes must be readable.
+/// Lanes in the mask take the elements of `from` one after the other, in lane order. The others keep their value.
+/// `from` must have one readable element for every lane.
 template <class V, class F, class T>
 V expand(V old, Mask<F> mask, const T* from) {
   static_assert(sizeof(T) == 4);
@@ -412,8 +412,8 @@ V expand(V old, Mask<F> mask, const T* from) {
   }
 }
 
-/// Writes the lanes in the mask to `to` one after the other, in lane order; as many elements as there are lanes may be
-/// written over.
+/// Writes the lanes in the mask to `to` one after the other, in lane order. It may overwrite one element for every
+/// lane.
 template <class V, class F, class T>
 void compress(V value, Mask<F> mask, T* to) {
   static_assert(sizeof(T) == 4);
@@ -425,7 +425,7 @@ void compress(V value, Mask<F> mask, T* to) {
     using Register [[maybe_unused]] = typename F::register_type;
 #ifdef __AVX512F__
     if constexpr (std::is_same_v<Register, __m512>) {
-      // Not to memory at once, which some processors do slowly.
+      // Compresses in a register, because some processors are slow at compressing to memory.
       _mm512_storeu_ps(to, _mm512_maskz_compress_ps(mask.data, std::bit_cast<__m512>(value.data)));
       return;
     }

@@ -6,14 +6,14 @@
 
 #include "math/twice.h"
 
-/// Steps of a lattice: point i of a dimension lies at frac(shift + i step), the shift random (Cranley and Patterson,
-/// "Randomization of number theoretic methods for multiple integration", 1976). Any number of samples may be taken;
-/// every stretch of them fills each dimension, and the pairs that matter most, evenly. Costs a product and a sum more
-/// than an independent number.
+/// Steps of a rank-1 lattice: point i of a dimension is frac(shift + i step) with a random shift (Cranley and
+/// Patterson, "Randomization of number theoretic methods for multiple integration", 1976). Any number of samples may be
+/// taken. Every run of them fills each dimension evenly, and also the pairs that matter most. A number costs one
+/// product and one sum more than an independent one.
 namespace glimt {
 
-/// By dimension of a hit, then 0 for the camera and 1 to 15 for the hits of a path, in units of 2^-32. Found by
-/// tests/tools/lattice_search.cpp.
+/// Steps in units of 2^-32, by dimension of a hit, then by place on the path: 0 for the camera, 1 to 15 for the hits.
+/// Found by tests/tools/lattice_search.cpp.
 alignas(64) inline constexpr std::array<std::array<std::uint32_t, small_table>, 6> lattice_steps{{
     {0xa0ff6747u, 0x3a7859d3u, 0x8815a9fbu, 0x30f655c7u, 0xbb77e9d5u, 0x84418173u, 0xd5af11c9u, 0x38b09aebu,
      0x11648673u, 0x66f2e3adu, 0x5113ab5bu, 0x6f751d79u, 0xb2a103b9u, 0x24f2299bu, 0x32d91c07u, 0x9fc8b4b7u},
@@ -29,22 +29,22 @@ alignas(64) inline constexpr std::array<std::array<std::uint32_t, small_table>, 
      0xd7d0c10du, 0x7d0cedd5u, 0x56959877u, 0x2d8c95a5u, 0x822ed8c3u, 0x6b536113u, 0xe5594a85u, 0xd4f343cdu},
 }};
 
-/// Where on its path a random number is asked for: 0 at the camera, then the number of the hit.
+/// Where on the path a random number is used: 0 at the camera, then the number of the hit.
 template <class F>
 struct LatticePlace {
   Int<F> hit;
 
   static LatticePlace of(const Int<F>& hit) { return {hit}; }
 
-  static constexpr int last = small_table - 1;  ///< hits from here on are rare and have no lattice of their own
+  static constexpr int last = small_table - 1;  ///< hits from here on are rare and share a lattice
 
   Uint<F> step(std::uint32_t dimension) const {
-    // Numbers of floats, but only their bits are looked at.
+    // The steps are read as floats, but only their bits are used.
     const auto* row = reinterpret_cast<const float*>(lattice_steps[dimension].data());
     return as_uint(as_int(lookup_small(row, select(less(hit, Int<F>(last)), hit, Int<F>(last)))));
   }
-  /// To be added to the key of sample `index`. With one lattice for them all, deep hits would run in step with each
-  /// other; this gives each of their samples a shift of its own, so that their numbers are independent.
+  /// Added to the key of sample `index`. Deep hits share one lattice, so their numbers would be correlated. This gives
+  /// each of their samples its own shift, which makes the numbers independent.
   Uint<F> scatter(const Uint<F>& index) const {
     return select(less(hit, Int<F>(last)), Uint<F>(0u), Uint<F>(index * Uint<F>(0x85ebca77u)));
   }

@@ -7,11 +7,11 @@
 
 namespace glimt {
 
-/// Columns of floats, each 64-byte aligned and padded to a multiple of 32 with zeros.
+/// Columns of floats, each 64-byte aligned and padded with zeros to a multiple of 32.
 template <class ColumnType>
 class Table {
  public:
-  static constexpr int padding = 32;  ///< columns have a multiple of so many places
+  static constexpr int padding = 32;  ///< the length of a column is a multiple of this
 
   Table() : Table(0) {}
   explicit Table(int rows, int columns = static_cast<int>(ColumnType::count))
@@ -20,7 +20,7 @@ class Table {
         data_(allocate(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(columns))) {}
 
   int rows() const { return rows_; }
-  /// Floats from one column to the next.
+  /// Number of floats from one column to the next.
   int stride() const { return stride_; }
   float* operator[](ColumnType c) { return data_.get() + static_cast<std::ptrdiff_t>(c) * stride_; }
   const float* operator[](ColumnType c) const { return data_.get() + static_cast<std::ptrdiff_t>(c) * stride_; }
@@ -40,14 +40,14 @@ class Table {
   std::unique_ptr<float[], Free> data_;
 };
 
-/// A row of a table to be filled.
+/// A row of a table, for writing.
 template <class ColumnType>
 struct TableRow {
   Table<ColumnType>& table;
   std::size_t row;
 
   void set(ColumnType c, double value) const { table[c][row] = static_cast<float>(value); }
-  /// In this column and the two after it.
+  /// Writes a vector to this column and the two after it.
   template <class Vector>
   void set3(ColumnType first, const Vector& v) const {
     for (int k = 0; k < 3; ++k) set(static_cast<ColumnType>(static_cast<int>(first) + k), v[k]);

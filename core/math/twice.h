@@ -2,11 +2,11 @@
 
 #include "math/lanes.h"
 
-/// Two batches side by side as one lane type. An operation on it is two that do not wait for each other, so that
-/// latency is hidden; it pays where there are registers enough for both.
+/// Two batches side by side as one lane type. An operation on it is two operations that do not wait for each other,
+/// which hides latency. That pays where there are enough registers for both.
 namespace glimt {
 
-/// `V`: a batch of float, int32 or uint32.
+/// `V` is a batch of float, int32 or uint32.
 template <class V>
 struct Twice {
   V a, b;
@@ -63,7 +63,7 @@ struct LaneTypes<Twice<V>> {
   static constexpr int width = 2 * LaneTypes<V>::width;
 };
 
-/// What the kernel is compiled for: 32, 8 or 4 lanes. With the sixteen registers of AVX2 two batches gained nothing.
+/// The lanes of the kernel: 32, 8 or 4. With the sixteen registers of AVX2, two batches gained nothing.
 #ifdef __AVX512F__
 using KernelLanes = Twice<NativeLanes>;
 #else

@@ -29,7 +29,7 @@ Vec3<F> broadcast(const std::array<float, 3>& v) {
   return broadcast<F>(v[0], v[1], v[2]);
 }
 
-/// Never -0, so that a quotient by it has the sign that "parallel" needs.
+/// Never -0, so that division by it gives the sign that intersections with parallel planes need.
 template <class F>
 F dot(const Vec3<F>& a, const Vec3<F>& b) {
   return fma(a.x, b.x, fma(a.y, b.y, fma(a.z, b.z, F(0.0f))));

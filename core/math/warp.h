@@ -4,7 +4,7 @@
 
 #include "math/vec.h"
 
-/// Maps from the unit square to what is sampled.
+/// Maps from the unit square to sampled points and directions.
 namespace glimt {
 
 template <class F>
@@ -12,8 +12,8 @@ struct SinCos {
   F sin, cos;
 };
 
-/// sin and cos of 2 pi u for u in [0, 1), each within 7e-7. Polynomials (Chebyshev fits on [-pi/2, pi/2]) for half the
-/// angle, then the double angle, so that no range reduction is needed.
+/// sin and cos of 2 pi u for u in [0, 1), each within 7e-7. Polynomials (Chebyshev fits on [-pi/2, pi/2]) give half the
+/// angle, and the double-angle formulas the rest, so no range reduction is needed.
 template <class F>
 SinCos<F> sincos_turns(F u) {
   const F a = u - F(0.5f);  // half the angle is pi a, the angle itself is 2 pi u - pi
@@ -28,8 +28,9 @@ SinCos<F> sincos_turns(F u) {
   return {F(-2.0f) * sine * cosine, fma(F(2.0f) * sine, sine, F(-1.0f))};
 }
 
-/// The angle in [-pi/2, pi/2] with that sine, for |x| <= 1, within 3e-7. A polynomial (fit at Chebyshev points) up to
-/// 1/2; beyond it asin x = pi/2 - 2 asin sqrt((1 - x) / 2). Not called asin, which for a batch would be xsimd's own.
+/// The angle in [-pi/2, pi/2] with sine x, for |x| <= 1, within 3e-7. Up to 1/2 it is a polynomial (fitted at Chebyshev
+/// points), beyond that asin x = pi/2 - 2 asin sqrt((1 - x) / 2). The name asin would find xsimd's function for a
+/// batch.
 template <class F>
 F arcsine(F x) {
   const F a = min(abs(x), F(1.0f));
@@ -43,7 +44,7 @@ F arcsine(F x) {
   return select(x < F(0.0f), F(0.0f) - result, result);
 }
 
-/// The angle in [0, pi] with that sine and cosine.
+/// The angle in [0, pi] with this sine and cosine.
 template <class F>
 F angle_of(F sin, F cos) {
   const F from_sin = arcsine(sin), pi(std::numbers::pi_v<float>);
@@ -60,17 +61,17 @@ Vec3<F> uniform_sphere(F u, F v) {
   return {r * turn.cos, r * turn.sin, z};
 }
 
-/// A direction about the unit normal n with pdf_w = cos(theta) / pi. A uniform point of the sphere that touches the
-/// surface from above, seen from the touching point, is cosine-distributed; so n + uniform_sphere needs no tangent
-/// frame. The sphere is lifted by a millionth: the sum then has a direction for its lowest point too, and every
-/// direction leaves the surface.
+/// A direction about the unit normal n with pdf_w = cos(theta) / pi. Take the sphere that touches the surface from
+/// above: the direction from the touching point to a uniform point of it is cosine-distributed. So n + uniform_sphere
+/// needs no tangent frame. Lifting the sphere by a millionth gives its lowest point a direction too, and makes every
+/// direction leave the surface.
 template <class F>
 Vec3<F> cosine_hemisphere(const Vec3<F>& n, F u, F v) {
   return normalize(fma(n, F(1.000001f), uniform_sphere(u, v)));
 }
 
-/// Right-handed axes about a unit normal, which is their z (Duff et al., "Building an orthonormal basis, revisited",
-/// JCGT 6(1), 2017).
+/// Right-handed axes whose z is a unit normal (Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1),
+/// 2017).
 template <class F>
 struct LocalFrame {
   Vec3<F> x, y, z;
