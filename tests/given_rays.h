@@ -17,8 +17,8 @@ inline double trace_green(const CompiledScene& scene, const dvec3& eye, const dv
   return static_cast<double>(trace_ray(scene, path, lanes).g);
 }
 
-/// Green radiance along the ray from `eye` to `point`, over 16 groups of paths. A pixel's samples, which may share a
-/// sequence, are all in one group, so that groups are independent.
+/// Green radiance along the ray from `eye` to `point`, from 16 groups of paths. All samples of a pixel are in one
+/// group, because they may share a sequence. So the groups are independent.
 inline Estimate radiance_at(const CompiledScene& scene, const dvec3& eye, const dvec3& point, int paths) {
   constexpr int samples = 64;  ///< per pixel
   const dvec3 w = normalize(point - eye);

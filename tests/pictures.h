@@ -14,7 +14,7 @@
 
 namespace glimt {
 
-/// Every path's radiance.
+/// The radiance of every path.
 inline std::vector<float> trace_all(const CompiledScene& scene, const PathBlock& block, Lanes lanes) {
   std::vector<float> rgb(3 * static_cast<std::size_t>(block.paths()), -1.0f);
   trace(scene, block, lanes, rgb.data());
@@ -33,7 +33,7 @@ inline std::ptrdiff_t first_difference(const std::vector<float>& a, const std::v
   return -1;
 }
 
-/// "pixel (x, y), sample s": how to replay the path that a number of the whole picture's block belongs to.
+/// "pixel (x, y), sample s": how to replay the path that gave value number `value` of the whole picture's block.
 inline std::string replay(const CompiledScene& scene, std::ptrdiff_t value) {
   const std::ptrdiff_t path = value / 3, pixels = std::ptrdiff_t{scene.width} * scene.height;
   return "pixel (" + std::to_string(path % pixels % scene.width) + ", " + std::to_string(path % pixels / scene.width) +
@@ -64,7 +64,7 @@ inline std::vector<double> block_means(const Image& image, int size) {
 struct Series {
   std::vector<std::vector<double>> blocks;  ///< by seed, then block and channel
 
-  /// Mean over the blocks' channels, one value a seed.
+  /// Mean over all blocks and channels, from one value per seed.
   Estimate overall() const {
     std::vector<double> means;
     for (const auto& b : blocks) {
@@ -90,7 +90,7 @@ inline Series render_series(Scene scene, int seeds, int samples, int block_size)
   return series;
 }
 
-/// Every third of some scenes, for the usual run of the tests; the others, for the long one.
+/// Every third scene, for the usual run of the tests; with `others`, the rest, for the long run.
 inline std::vector<Scene> every_third(const std::vector<Scene>& scenes, bool others = false) {
   std::vector<Scene> some;
   for (std::size_t i = 0; i < scenes.size(); ++i)

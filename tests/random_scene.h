@@ -4,13 +4,14 @@
 
 namespace glimt {
 
-/// What is around the objects of a random scene and its camera.
+/// What surrounds the objects and the camera of a random scene.
 enum class Surroundings { nothing, box, mesh, prism, shell };
 inline constexpr int surroundings_count = 5;
 
-/// Objects of every shape within [-4, 4]^3, each of a material of its own: index i has reflectance.r (i + 1) / 256, or
-/// as a lamp radiance.r i + 1, or as glass ior 1.2 + i / 64. All materials, both Fresnel and Oren-Nayar formulas, lamps
-/// of every shape, a glass sphere within another. The camera is at (0, 0, 3.5).
+/// Objects of every shape within [-4, 4]^3, each with its own material. Material i has reflectance.r (i + 1) / 256; a
+/// lamp has radiance.r i + 1, glass has ior 1.2 + i / 64. There are lambertian, Oren-Nayar (both formulas), mirror and
+/// glass surfaces (both Fresnel formulas), lamps of every kind, and in half of the scenes a glass sphere in another.
+/// The camera is at (0, 0, 3.5).
 class RandomScene {
  public:
   explicit RandomScene(unsigned seed) : random_(seed) {
@@ -31,7 +32,7 @@ class RandomScene {
     scene.polygons.push_back({name(), reflecting(), {p, p + e1, p + e1 + e2, p + e2}});
     scene.meshes.push_back(tetrahedron(name(), reflecting(), place(), number(0.3, 0.8)));
     scene.meshes.push_back(dented(name(), reflecting(), place(), number(0.3, 0.8)));
-    // Glass in places of its own, since glass solids must not cut each other.
+    // Glass has its own places, because glass solids must not intersect.
     const double r = number(0.5, 0.9);
     scene.spheres.push_back({name(), any_glass(), {-3, 2.5, 0}, r});
     if (seed % 2 == 0) scene.spheres.push_back({name(), any_glass(), {-3, 2.5, 0.1}, 0.6 * r});
@@ -49,7 +50,7 @@ class RandomScene {
     const double x = gauss(random_), y = gauss(random_);
     return normalize(dvec3{x, y, gauss(random_)});
   }
-  /// Away from the camera.
+  /// A place away from the camera.
   dvec3 place() {
     const double x = number(-3, 3), y = number(-3, 3);
     return {x, y, number(-3.2, 1.5)};

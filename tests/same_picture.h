@@ -8,10 +8,10 @@
 #include "pictures.h"
 #include "scene/scene.h"
 
-/// Pictures of one thing by several estimators.
+/// Compares pictures of one scene by several estimators.
 namespace glimt {
 
-/// What GoogleTest shows of a case.
+/// What GoogleTest prints for a case.
 inline void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
 /// What GoogleTest calls a case: letters and digits of the scene's name.
@@ -27,10 +27,10 @@ struct Named {
   Series series;
 };
 
-/// Comparisons that expect_same() makes of two series.
+/// Number of comparisons that expect_same() makes of two series.
 inline double comparisons(const Series& series) { return static_cast<double>(series.size() + 1); }
 
-/// Overall means, and means of blocks, of two series of pictures of one thing; `level` for each comparison.
+/// Expects equal overall means and equal means of blocks in two series. Each comparison has significance `level`.
 inline void expect_same(const Named& a, const Named& b, double level, const std::string& scene) {
   const auto check = [&](const Estimate& x, const Estimate& y, const std::string& where) {
     EXPECT_GT(likelihood(x, y), level) << scene << ", " << where << ": " << a.name << " " << x.mean << " +- " << x.error

@@ -12,7 +12,7 @@
 #include "material/list.h"
 #include "scene/scene.h"
 
-/// Pieces that test scenes are made of.
+/// The pieces of test scenes.
 namespace glimt {
 
 using glm::dvec3;
@@ -42,7 +42,7 @@ inline Material eon(std::string name, double roughness, const dvec3& reflectance
       .with(Eon::reflectance, reflectance);
 }
 
-/// A square that shines down, of that edge, centred on the y axis.
+/// A square lamp that shines down, with this edge length, centred on the y axis.
 inline Polygon square_lamp(double edge, double y, const std::string& material = "lamp") {
   const double h = edge / 2;
   return {"lamp", material, {{-h, y, -h}, {h, y, -h}, {h, y, h}, {-h, y, h}}};
@@ -69,7 +69,7 @@ inline Mesh box_mesh(const dvec3& low, const dvec3& high, const std::string& mat
     mesh.triangles.push_back({first, first + 1, first + 2});
     mesh.triangles.push_back({first, first + 2, first + 3});
   }
-  // Shared corners, so that the mesh is closed.
+  // Triangles share corners, so the mesh is closed.
   std::vector<dvec3> corners;
   std::vector<int> corner_of;
   for (const dvec3& v : mesh.vertices) {
@@ -85,7 +85,7 @@ inline Mesh box_mesh(const dvec3& low, const dvec3& high, const std::string& mat
   return mesh;
 }
 
-/// A regular tetrahedron with that distance from its centre to its corners, fronts outwards.
+/// A regular tetrahedron, fronts outwards. `size` is the distance from its centre to its corners.
 inline Mesh tetrahedron(std::string name, std::string material, const dvec3& centre, double size) {
   const double s = size / std::sqrt(3.0);
   return {.name = std::move(name),
@@ -98,19 +98,19 @@ inline Mesh tetrahedron(std::string name, std::string material, const dvec3& cen
 /// A tetrahedron with one side pushed in: closed and not convex, fronts outwards.
 inline Mesh dented(std::string name, std::string material, const dvec3& centre, double size) {
   Mesh mesh = tetrahedron(std::move(name), std::move(material), centre, size);
-  mesh.vertices.push_back(centre);  // nearer to the other corners than the middle of side (1, 2, 3)
+  mesh.vertices.push_back(centre);  // inside side (1, 2, 3)
   mesh.triangles.pop_back();
   for (const auto& t : {std::array{1, 2, 4}, {2, 3, 4}, {3, 1, 4}}) mesh.triangles.push_back(t);
   return mesh;
 }
 
-/// Right-handed frame with z along `normal`.
+/// Two tangents that form a right-handed frame with `normal` as z.
 inline std::array<dvec3, 2> tangents(const dvec3& normal) {
   const dvec3 u = normalize(cross(normal, std::abs(normal.x) < 0.6 ? dvec3{1, 0, 0} : dvec3{0, 1, 0}));
   return {u, cross(normal, u)};
 }
 
-/// A polygon of `sides` corners on an ellipse.
+/// A polygon with `sides` corners on an ellipse.
 inline Polygon disk(std::string name, std::string material, const dvec3& centre, const dvec3& normal, double size,
                     int sides) {
   const auto [u, v] = tangents(normal);

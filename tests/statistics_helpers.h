@@ -4,26 +4,26 @@
 #include <cmath>
 #include <vector>
 
-/// Tail probabilities for statistical tests. Random numbers are seeded, so a test that passes goes on passing; the
-/// stated probability of a false alarm is that of any one choice of seeds.
+/// Tail probabilities for statistical tests. Random numbers are seeded, so a test that passes goes on passing. The
+/// stated probability of a false alarm is that of one choice of seeds.
 namespace glimt {
 
-/// Fewer samples where every instruction is watched.
+/// Scales the number of samples: fewer with the address sanitizer, which is slow.
 #ifdef __SANITIZE_ADDRESS__
 inline constexpr int effort = 1;
 #else
 inline constexpr int effort = 8;
 #endif
 
-/// What each of `tests` independent tests may take so that all together raise a false alarm with probability `alpha`
-/// (Sidak).
+/// The significance level of each of `tests` independent tests, so that all together raise a false alarm with
+/// probability `alpha` (Sidak).
 inline double sidak(double alpha, double tests) { return -std::expm1(std::log1p(-alpha) / tests); }
 
-/// Probability that a standard normal variable is as far from 0 as z.
+/// Probability that a standard normal variable is at least as far from 0 as z.
 inline double normal_tails(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
-/// Probability that a chi-square variable with k degrees of freedom is at least x: the upper regularised incomplete
-/// gamma function of (k/2, x/2), by its series below the mean and its continued fraction above.
+/// Probability that a chi-square variable with k degrees of freedom is at least x. It is the upper regularised
+/// incomplete gamma function of (k/2, x/2), computed by a series below the mean and a continued fraction above.
 inline double chi_square_tail(double x, double k) {
   const double a = k / 2, y = x / 2;
   if (y <= 0) return 1;
@@ -45,8 +45,8 @@ inline double chi_square_tail(double x, double k) {
   return front * h;
 }
 
-/// Probability that Student's t with n degrees of freedom is as far from 0 as t: the regularised incomplete beta
-/// function of (n/2, 1/2) at n / (n + t^2), by its continued fraction.
+/// Probability that Student's t with n degrees of freedom is at least as far from 0 as t. It is the regularised
+/// incomplete beta function of (n/2, 1/2) at n / (n + t^2), computed by a continued fraction.
 inline double student_tails(double t, double n) {
   const double x = n / (n + t * t);
   auto fraction = [](double a, double b, double z) {
@@ -81,14 +81,14 @@ inline Estimate estimate(const std::vector<double>& values) {
   return {mean, std::sqrt(squares / (n - 1) / n), static_cast<int>(values.size())};
 }
 
-/// How likely it is that the estimate's mean is as far from an exact value.
+/// Probability that the estimate's mean is at least as far from the exact value.
 inline double likelihood(const Estimate& e, double exact) {
-  // Values that are all alike are right or wrong up to the rounding of floats.
+  // Values that are all equal are right or wrong, up to the rounding of floats.
   if (e.error <= 1e-7 * std::abs(exact)) return std::abs(e.mean - exact) <= 2e-6 * std::abs(exact) ? 1 : 0;
   return student_tails((e.mean - exact) / e.error, e.values - 1);
 }
 
-/// How likely it is that two estimates of one value are as far from each other (Welch 1947).
+/// Probability that two estimates of one value are at least as far from each other (Welch 1947).
 inline double likelihood(const Estimate& a, const Estimate& b) {
   const double va = a.error * a.error, vb = b.error * b.error;
   if (va + vb == 0) return a.mean == b.mean ? 1 : 0;

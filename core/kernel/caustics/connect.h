@@ -12,18 +12,18 @@
 #include "kernel/transport/path_sums.h"
 #include "kernel/transport/random.h"
 
-/// Connections of a diffuse surface x to a point y of a lamp over one specular sphere, for caustics that are seen in a
-/// mirror or through glass, where light paths do not come (Walter, Zhao, Holzschuch and Bala, "Single scattering in
-/// refractive media with triangle mesh boundaries", 2009; Hanika, Droske and Fascione, "Manifold next event
-/// estimation", 2015). They share with paths that find the same chain by chance, by the balance heuristic (Veach 1997).
+/// Connections of a diffuse surface x to a point y of a lamp over one specular sphere (Walter, Zhao, Holzschuch and
+/// Bala, "Single scattering in refractive media with triangle mesh boundaries", 2009; Hanika, Droske and Fascione,
+/// "Manifold next event estimation", 2015). They find caustics that are seen in a mirror or through glass, which light
+/// paths cannot reach. BSDF sampling finds the same chains; the balance heuristic combines the two (Veach 1997).
 namespace glimt {
 
-/// A diffuse surface that is connected, as the path there sees it.
+/// A diffuse surface to connect, as the path meets it.
 template <class F>
 struct ConnectionPoint {
   Interaction<F> at;
   Vec3<F> wo;
-  Vec3<F> throughput;  ///< with the reflectance of x
+  Vec3<F> throughput;  ///< includes the reflectance of x
   PathKey<F> key;
   Int<F> depth, path;
 };
@@ -38,14 +38,14 @@ class Connector {
  public:
   explicit Connector(const CompiledScene& scene) : scene_(scene), surfaces_(scene) {}
 
-  /// Room for so many sums.
+  /// Makes room for this many sums.
   void begin(std::size_t sums) {
     sums_.assign(3 * sums, 0.0f);
     ConnectionPoint<F> none;
     visit(none, [](auto&, auto& places) { places.fill({}); });
   }
 
-  /// Connects the lanes in the mask, now or later: diffuse surfaces wait until they fill all lanes.
+  /// Connects the lanes in the mask, now or later: diffuse surfaces wait until they fill all lanes of a batch.
   void add(ConnectionPoint<F> p, const M& mask) {
     visit(p, [&]<class N>(N& value, auto& places) {
       compress<N, F>(value, mask, places.data() + static_cast<std::ptrdiff_t>(count_));
@@ -57,7 +57,8 @@ class Connector {
     visit(p, [](auto&, auto& places) { std::copy_n(places.begin() + lane_count<F>, lane_count<F>, places.begin()); });
   }
 
-  /// Adds to each sum what connections found. In the order of a path's surfaces, whatever other paths there are.
+  /// Adds to each sum what connections found, in the order of the path's surfaces. Other paths do not change this
+  /// order.
   void finish(PathSums<F>& sums) {
     if (count_ > 0) connect(count_);
     count_ = 0;
@@ -69,7 +70,7 @@ class Connector {
   template <class T>
   using Waiting = std::array<T, 3 * lane_count<F>>;
 
-  /// f(number, its places) for all that is kept of a point.
+  /// Calls f(number, its places) for every number that is kept of a point.
   template <class Function>
   void visit(ConnectionPoint<F>& p, Function f) {
     auto numbers = numbers_.begin();
@@ -84,7 +85,7 @@ class Connector {
 
   struct ChosenPoint {
     LampPoint<F> on;
-    V weight;         ///< radiance over pdf_a
+    V weight;         ///< radiance / pdf_a
     F inverse_pdf_a;  ///< m^2
     I first_surface, last_surface;
   };
@@ -108,17 +109,17 @@ class Connector {
     return chosen_point(LampRow<F, false>{scene_.lamps, choose_lamp(scene_, which)}, uv);
   }
 
-  /// One of the chains between two points, in proportion to the light it brings if nothing hides it.
+  /// One of the chains between two points, chosen in proportion to the light it brings if nothing hides it.
   struct Choice {
-    F left;          ///< of a uniform number in [0, 1), for choices to come
-    F sum;           ///< of all chains' light
-    V colour;        ///< of the chain chosen
-    V from_x, exit;  ///< where it leaves x, and the sphere
+    F left;          ///< what is left of a uniform number in [0, 1), for further choices
+    F sum;           ///< light of all chains
+    V colour;        ///< reflectance of the chosen chain's sphere
+    V from_x, exit;  ///< direction in which it leaves x; point where it leaves the sphere
     V to_y;
     F x_length, y_length;
     I surface;  ///< of the sphere
 
-    /// Another chain (Chao, "A general purpose unequal probability sampling plan", 1982).
+    /// Offers another chain (Chao, "A general purpose unequal probability sampling plan", 1982).
     void offer(const SphereChain<F>& chain, const M& lit, F light, const V& of_colour, const ChainSphere& sphere) {
       const F before = sum;
       sum = sum + select(lit, light, F(0.0f));
@@ -136,7 +137,7 @@ class Connector {
     }
   };
 
-  /// The first `count` that wait.
+  /// Connects the first `count` waiting surfaces.
   [[gnu::noinline]] void connect(int count) {
     ConnectionPoint<F> p;
     visit(p, []<class N>(N& value, auto& places) { value = load<N>(places.data()); });
@@ -165,13 +166,13 @@ class Connector {
     }
   }
 
-  /// Where no limit of depth forbids so many surfaces and a lamp.
+  /// Whether max_depth allows this many more surfaces and a lamp.
   M has_depth(const ConnectionPoint<F>& p, int surfaces) const {
     const int limit = setting<features, &Settings::max_depth>(scene_);
     return limit > 0 ? less(p.depth, I(limit - 1 - surfaces)) : all_lanes<F>();
   }
 
-  /// The chains from x to the point of the lamp over one sphere.
+  /// Offers the chains from x to the point of the lamp over one sphere.
   void offer_chains(const ConnectionPoint<F>& p, const ChosenPoint& lamp, const ChainSphere& sphere, const M& active,
                     Choice& choice) const {
     const V center = broadcast<F>(sphere.center);
@@ -184,7 +185,7 @@ class Connector {
     const auto of_surface = [&](Column c) { return scene_.surfaces[c][sphere.surface]; };
     const V colour = broadcast<F>(of_surface(Column::reflectance_r), of_surface(Column::reflectance_g),
                                   of_surface(Column::reflectance_b));
-    // `chosen`: the probability that a path by chance keeps to the chain once it is on the way.
+    // `chosen`: the probability that a path by BSDF sampling keeps to the chain once it has begun.
     const auto offer = [&](const SphereChain<F>& chain, F chosen, int surfaces) {
       const F cos_x = dot(chain.from_x, p.at.normal), cos_y = dot(chain.from_y, lamp.on.normal);
       const M lit = active & has_depth(p, surfaces) & chain.exists & (cos_x > F(0.0f)) & (cos_y > F(0.0f));
@@ -207,7 +208,7 @@ class Connector {
     }
   }
 
-  /// Light from the point of the lamp by the chain chosen, times the BRDF of x over its reflectance.
+  /// Light from the point of the lamp by the chosen chain, times the BRDF of x divided by reflectance / pi.
   V arriving(const ConnectionPoint<F>& p, const ChosenPoint& lamp, const Choice& choice) const {
     M lit = choice.sum > F(0.0f);
     if (!any(lit)) return V::all(F(0.0f));
@@ -216,7 +217,7 @@ class Connector {
     lit = lit & !occluded<F, features>(scene_, {choice.exit, choice.to_y, choice.surface}, choice.y_length,
                                        lamp.first_surface, lamp.last_surface);
     V weight = lamp.weight * choice.colour * choice.sum;
-    // Lanes without a chain may hold values that are no numbers.
+    // Lanes without a chain may hold NaN.
     if (surfaces_.has_rough_matt())
       weight = weight * surfaces_.evaluate_matt(p.at, choice.from_x, p.wo, dot(choice.from_x, p.at.normal), p.at.cos_o);
     return select(lit, weight, V::all(F(0.0f)));
@@ -228,7 +229,7 @@ class Connector {
   std::array<Waiting<float>, 13> numbers_;
   std::array<Waiting<std::int32_t>, 3> integers_;
   std::array<Waiting<std::uint32_t>, 3> keys_;
-  int count_ = 0;  ///< that wait
+  int count_ = 0;  ///< surfaces that wait
 };
 
 }  // namespace glimt

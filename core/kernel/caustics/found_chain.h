@@ -5,23 +5,23 @@
 #include "kernel/lamps/sample_lamp.h"
 #include "kernel/scattering/surfaces.h"
 
-/// Chains over a sphere that a path from the camera finds by chance, which connections find too (connect.h).
+/// Chains over a sphere that a camera path finds by BSDF sampling and that connections find too (connect.h).
 namespace glimt {
 
-/// Whether a clear glass sphere asks for Schlick's Fresnel.
+/// The column that says whether a clear glass sphere uses Schlick's approximation.
 inline constexpr Column smooth_glass_schlick = lobe_column(first_column<SmoothGlassLobe>() + SmoothGlassLobe::schlick);
 
-/// How far a path has come from a diffuse surface; `reflected` and `refracted` are complete chains.
+/// How far a path has come on a chain from a diffuse surface. Chains `reflected` and `refracted` are complete.
 enum ChainStage : std::int32_t { chain_none, chain_open, chain_inside, chain_reflected, chain_refracted };
 
 template <class F>
 struct FoundChain {
   Int<F> stage;  ///< ChainStage
-  F pdf_w;       ///< with which the diffuse surface chose the direction
-  F distance2;   ///< of its point to the sphere's centre, m^2
+  F pdf_w;       ///< pdf with which the diffuse surface chose the direction, 1/sr
+  F distance2;   ///< squared distance of that surface's point to the sphere's centre, m^2
 
-  /// The next surface, `distance` away. `opens`: a diffuse one that is connected; `crosses`: the path goes on behind
-  /// it. Diffuse surfaces note pdf_w themselves.
+  /// Follows the path to the next surface, `distance` away. `opens`: it is diffuse and gets connections. `crosses`: the
+  /// path goes on behind it. The path loop sets pdf_w at diffuse surfaces.
   template <Features features>
   void follow(const Surfaces<F, features>& surfaces, const Ray<F>& ray, const Interaction<F>& at, F distance,
               const Mask<F>& opens, const Mask<F>& crosses) {
@@ -43,13 +43,13 @@ struct FoundChain {
   Mask<F> complete() const { return less(Int<F>(chain_inside), stage); }
 };
 
-/// What counts of a lamp that a complete chain has come to along `ray`, which leaves the sphere. The lamp has that row.
+/// The balance heuristic's weight of a lamp that BSDF sampling finds over a complete chain. `ray` leads from the sphere
+/// to the lamp, which is in `row` of the lamp table.
 template <class F, Features features>
 F chance_share(const CompiledScene& scene, const Surfaces<F, features>& surfaces, const FoundChain<F>& chain,
                const Ray<F>& ray, const Interaction<F>& lamp, const Int<F>& row) {
   Interaction<F> sphere = lamp;
-  sphere.surface =
-      select(less(ray.from, Int<F>(0)), Int<F>(0), ray.from);  // lanes that are on no surface have no chain
+  sphere.surface = select(less(ray.from, Int<F>(0)), Int<F>(0), ray.from);  // lanes on no surface have no chain
   const Vec3<F> center = surfaces.vector(Column::normal_x, sphere), way = lamp.point - center;
   const F inverse_radius = surfaces.value(Column::inverse_radius, sphere), radius = reciprocal(inverse_radius);
   const F cos = min(max(dot(ray.origin - center, ray.direction) * inverse_radius, F(0.0f)), F(1.0f));
@@ -73,7 +73,7 @@ F chance_share(const CompiledScene& scene, const Surfaces<F, features>& surfaces
   const F connections =
       F(static_cast<float>(setting<features, &Settings::shadow_rays>(scene))) * tube * reciprocal(lamp.cos_o);
   const F share = chance * reciprocal(chance + connections);
-  // No number where a grazing ray has no finite tube; connections leave it to chance.
+  // NaN where a grazing ray has no finite tube. Connections do not count there, so BSDF sampling has all the weight.
   return select(share >= F(0.0f), share, F(1.0f));
 }
 

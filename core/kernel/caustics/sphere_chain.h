@@ -5,18 +5,18 @@
 #include "math/warp.h"
 
 /// Specular chains from a point x over one sphere to a point y, both outside it: reflection off its outside, and
-/// refraction into it and out again. They lie in the plane of x, y and the centre, so a chain is one unknown, the angle
-/// of incidence theta. With a = radius / distance of an end to the centre and sin(alpha) = a sin(theta), a ray from
-/// that end meets the sphere at the angle phi = theta - alpha from it, seen from the centre; with sin(theta_t) =
-/// sin(theta) / n the chord inside spans pi - 2 theta_t. Only sines and cosines of these angles are needed, which are
-/// algebraic and, written as below, no differences of nearly equal numbers where an end is close to the sphere.
+/// refraction into it and out again. They lie in the plane of x, y and the centre, so a chain has one unknown, the
+/// angle of incidence theta. Let a = radius / distance of an end to the centre, and sin(alpha) = a sin(theta). Seen
+/// from the centre, a ray from that end meets the sphere at the angle phi = theta - alpha from the end. With
+/// sin(theta_t) = sin(theta) / n, the chord inside spans pi - 2 theta_t. Only sines and cosines of these angles are
+/// needed. They are algebraic, and the forms below do not cancel where an end is close to the sphere.
 namespace glimt {
 
 /// An end of a chain.
 template <class F>
 struct ChainEnd {
-  F a;             ///< radius over distance to the centre
-  F one_minus_a2;  ///< not positive for a point that is not outside
+  F a;             ///< radius / distance to the centre
+  F one_minus_a2;  ///< positive only for a point outside
   F distance;      ///< to the centre, metres
 };
 
@@ -29,7 +29,7 @@ ChainEnd<F> chain_end(F distance, F radius) {
 /// The ray from an end to the sphere.
 template <class F>
 struct ChainLeg {
-  F cos_end;                  ///< cos(alpha): at the end, between the ray and the centre
+  F cos_end;                  ///< cos(alpha), with alpha the angle at the end between the ray and the centre
   F cos_phi, sin_phi_over_b;  ///< cos(phi), and sin(phi) / b with b = sin(theta)
   F slope;                    ///< d phi / d theta
   F length;                   ///< metres
@@ -38,16 +38,16 @@ struct ChainLeg {
 template <class F>
 ChainLeg<F> chain_leg(const ChainEnd<F>& end, F b, F cos_theta) {
   const F cos_end = positive_sqrt(fma(end.a * end.a, cos_theta * cos_theta, end.one_minus_a2));
-  // cos(alpha) - a cos(theta), because cos^2(alpha) - a^2 cos^2(theta) = 1 - a^2.
+  // Equal to cos(alpha) - a cos(theta), because cos^2(alpha) - a^2 cos^2(theta) = 1 - a^2.
   const F length = end.one_minus_a2 * reciprocal(fma(end.a, cos_theta, cos_end));
   return {cos_end, fma(cos_theta, cos_end, end.a * (b * b)), length, length * reciprocal(cos_end),
           length * end.distance};
 }
 
-/// Area at y, at right angles to the ray there, over solid angle at x, m^2/sr: distance_x^2 distance_y^2 cos(alpha_x)
-/// cos(alpha_y) |d Phi / db| sin(Phi) / b / radius^2, Phi the angle at the centre from x to y. A ray turned by d alpha
-/// about x moves by distance_y cos(alpha_y) d Phi at y; turned by d psi about the axis, by distance_y sin(Phi) d psi;
-/// and the solid angle is sin(alpha_x) d alpha d psi with distance_x sin(alpha_x) = radius b.
+/// Area at y, at right angles to the ray there, per solid angle at x, m^2/sr: distance_x^2 distance_y^2 cos(alpha_x)
+/// cos(alpha_y) |d Phi / db| sin(Phi) / b / radius^2, where Phi is the angle at the centre from x to y. A ray turned by
+/// d alpha about x moves by distance_y cos(alpha_y) d Phi at y. A ray turned by d psi about the axis moves by
+/// distance_y sin(Phi) d psi. The solid angle is sin(alpha_x) d alpha d psi, with distance_x sin(alpha_x) = radius b.
 template <class F>
 F tube_area(const ChainEnd<F>& x, const ChainEnd<F>& y, const ChainLeg<F>& at_x, const ChainLeg<F>& at_y,
             F phi_slope_by_b, F sin_phi_over_b) {
@@ -55,13 +55,13 @@ F tube_area(const ChainEnd<F>& x, const ChainEnd<F>& y, const ChainLeg<F>& at_x,
   return scale * scale * (at_x.cos_end * at_y.cos_end) * abs(phi_slope_by_b * sin_phi_over_b);
 }
 
-/// The plane of a chain; its vectors are unit directions from the centre.
+/// The plane of a chain. Its vectors are unit directions from the centre.
 template <class F>
 struct ChainPlane {
   Vec3<F> to_x, to_y;
-  Vec3<F> across_x, across_y;  ///< at right angles to to_x and to_y, each to the side of the other
-  Vec3<F> middle, sideways;    ///< bisector of to_x and to_y, and the direction at right angles to it to the side of y
-  F cos_half, sin_half;        ///< of half the angle between to_x and to_y
+  Vec3<F> across_x, across_y;  ///< at right angles to to_x and to_y, each on the side of the other
+  Vec3<F> middle, sideways;    ///< bisector of to_x and to_y; at right angles to it, on the side of y
+  F cos_half, sin_half;        ///< cosine and sine of half the angle between to_x and to_y
 };
 
 template <class F>
@@ -72,12 +72,12 @@ Vec3<F> any_perpendicular(const Vec3<F>& v) {
 
 template <class F>
 ChainPlane<F> chain_plane(const Vec3<F>& to_x, const Vec3<F>& to_y) {
-  const F least(1e-13f);  // below it the square of a difference of unit vectors is rounding
+  const F least(1e-13f);  // smaller squares of differences of unit vectors are rounding errors
   const Vec3<F> sum = to_x + to_y, difference = to_y - to_x;
   const F sum2 = dot(sum, sum), difference2 = dot(difference, difference);
   const F inverse_sum = inverse_sqrt(max(sum2, least)), inverse_difference = inverse_sqrt(max(difference2, least));
   const F c = F(0.5f) * sum2 * inverse_sum, s = F(0.5f) * difference2 * inverse_difference;
-  // The longer of the two has all digits; the shorter is put at right angles to it.
+  // The longer of the two has all its digits. The shorter is made perpendicular to it.
   const Mask<F> near = c > s;
   const Vec3<F> sure = select(near, sum * inverse_sum, difference * inverse_difference);
   const Vec3<F> unsure = select(near, difference * inverse_difference, sum * inverse_sum);
@@ -89,18 +89,18 @@ ChainPlane<F> chain_plane(const Vec3<F>& to_x, const Vec3<F>& to_y) {
   return {to_x, to_y, up + along, up - along, middle, sideways, c, s};
 }
 
-/// A chain over the sphere. All but `exists` may hold anything where there is none.
+/// A chain over the sphere. Where `exists` is false, the others may hold anything.
 template <class F>
 struct SphereChain {
   Mask<F> exists;
   Vec3<F> from_x, from_y;      ///< unit, from the ends to the sphere
   F x_length, y_length;        ///< metres
-  Vec3<F> x_normal, y_normal;  ///< outward, where these rays meet the sphere
-  F cos_theta;                 ///< of the rays outside to the normals
+  Vec3<F> x_normal, y_normal;  ///< outward normals where these rays meet the sphere
+  F cos_theta;                 ///< cosine between the rays outside and the normals
   F tube;                      ///< see tube_area
 };
 
-/// The rays of a reflection with that angle of incidence.
+/// The rays of a reflection with this angle of incidence.
 template <class F>
 struct ReflectedRay {
   ChainLeg<F> x, y;
@@ -115,10 +115,10 @@ ReflectedRay<F> reflected_ray(const ChainEnd<F>& x, const ChainEnd<F>& y, F b, F
   return {at_x, at_y, tube_area(x, y, at_x, at_y, slope, sin_over_b)};
 }
 
-/// Where the outside reflects x to y, which is Alhazen's problem. At an angle tau from the bisector towards y, equal
-/// angles to the normal mean 2 u - (a_x + a_y) cos(Phi/2) u / sqrt(1 - u^2) = (a_y - a_x) sin(Phi/2), u = sin(tau).
-/// The left side is concave for u > 0 and odd, so Newton's method from u = 0 rises to the smaller of its roots, the one
-/// that both ends see.
+/// The reflection of x to y off the outside, which is Alhazen's problem. Let the reflecting point be at the angle tau
+/// from the bisector towards y, and u = sin(tau). Equal angles to the normal mean 2 u - (a_x + a_y) cos(Phi/2) u /
+/// sqrt(1 - u^2) = (a_y - a_x) sin(Phi/2). The left side is odd, and concave for u > 0. So Newton's method from u = 0
+/// rises to the smaller of its roots, the one that both ends see.
 template <class F>
 SphereChain<F> reflected_chain(const ChainPlane<F>& plane, const ChainEnd<F>& x, const ChainEnd<F>& y) {
   constexpr int steps = 8;
@@ -138,8 +138,8 @@ SphereChain<F> reflected_chain(const ChainPlane<F>& plane, const ChainEnd<F>& x,
     u = min(max(u, zero - s), s);
     cos_tau = sqrt(fnma(u, u, one));
   }
-  // phi, and the way to the sphere over the distance: sin(phi) across the normal, cos(phi) - a along it. At the farther
-  // end, where an error of phi matters less; the other end has the same theta.
+  // phi at the farther end, where an error of phi matters less; the other end has the same theta. The way to the
+  // sphere, divided by the distance, is sin(phi) across the normal and cos(phi) - a along it.
   const Mask<F> x_is_farther = x_gap > y_gap;
   const F towards_y = select(x_is_farther, u, zero - u);
   const F cos_phi = fnma(s, towards_y, c * cos_tau), sin_phi = fma(c, towards_y, s * cos_tau);
@@ -159,10 +159,10 @@ SphereChain<F> reflected_chain(const ChainPlane<F>& plane, const ChainEnd<F>& x,
           ray.tube};
 }
 
-/// A sphere of relative index n by omega, the larger of theta and theta_t.
+/// A sphere of relative index n, described by omega, the larger of theta and theta_t.
 template <class F>
 struct SphereLens {
-  F outside, inside;  ///< sin(theta) and sin(theta_t) over sin(omega)
+  F outside, inside;  ///< sin(theta) / sin(omega) and sin(theta_t) / sin(omega)
 };
 
 template <class F>
@@ -170,12 +170,12 @@ SphereLens<F> sphere_lens(F n) {
   return {min(n, F(1.0f)), min(reciprocal(n), F(1.0f))};
 }
 
-/// The rays of a refraction in and out with that omega, which turns by Phi = pi + turn about the centre.
+/// The rays of a refraction in and out with this omega. It turns by Phi = pi + turn about the centre.
 template <class F>
 struct RefractedRay {
   ChainLeg<F> x, y;
   F b, cos_theta;               ///< sine and cosine of theta
-  F cos_turn, sin_turn_over_w;  ///< cos(turn), and sin(turn) over sin(omega)
+  F cos_turn, sin_turn_over_w;  ///< cos(turn) and sin(turn) / sin(omega)
   F slope;                      ///< d turn / d omega
   F tube;
 };
@@ -184,7 +184,7 @@ template <class F>
 RefractedRay<F> refracted_ray(const SphereLens<F>& lens, const ChainEnd<F>& x, const ChainEnd<F>& y, F sin_omega,
                               F cos_omega) {
   const F one(1.0f), two(2.0f);
-  // Of the angle whose sine is ratio * sin(omega): its cosine, and its derivative by omega.
+  // For the angle whose sine is ratio * sin(omega): its cosine, and its derivative by omega.
   const auto cosine = [&](F ratio) {
     return sqrt(fma(ratio * ratio, cos_omega * cos_omega, (one - ratio) * (one + ratio)));
   };
@@ -208,17 +208,17 @@ RefractedRay<F> refracted_ray(const SphereLens<F>& lens, const ChainEnd<F>& x, c
           slope,    tube_area(x, y, at_x, at_y, slope * (inverse * reciprocal(cos_omega)), sin_turn_over_w * inverse)};
 }
 
-/// omega by u = tan(omega / 2), in which its sine and cosine are rational.
+/// Sine and cosine of omega from u = tan(omega / 2), of which they are rational functions.
 template <class F>
 SinCos<F> of_half_tangent(F u) {
   const F inverse = reciprocal(fma(u, u, F(1.0f)));
   return {(u + u) * inverse, (F(1.0f) - u) * (F(1.0f) + u) * inverse};
 }
 
-/// cos(omega) at the fold, where `turn` is least: it falls from 0 at omega = 0 if d turn / d omega < 0 there. For n > 1
-/// that derivative is, in q = cos(omega), 2 less concave rising functions s q / sqrt(1 - s^2 + s^2 q^2); so turn is
-/// convex in omega, there is one fold at most, and Newton's method from q = 0 rises to it. 1 where turn only rises; 0
-/// for n <= 1, where it only falls.
+/// cos(omega) at the fold, where `turn` is least. turn is 0 at omega = 0, and falls from there if d turn / d omega < 0.
+/// For n > 1 that derivative is, in q = cos(omega), 2 minus concave rising functions s q / sqrt(1 - s^2 + s^2 q^2). So
+/// turn is convex in omega and has at most one fold, and Newton's method from q = 0 rises to it. The result is 1 where
+/// turn only rises, and 0 for n <= 1, where it only falls.
 template <class F>
 F fold_cosine(const SphereLens<F>& lens, const ChainEnd<F>& x, const ChainEnd<F>& y) {
   constexpr int steps = 6;
@@ -238,10 +238,11 @@ F fold_cosine(const SphereLens<F>& lens, const ChainEnd<F>& x, const ChainEnd<F>
   return select(lens.inside < one, select(falls, q, one), F(0.0f));
 }
 
-/// Every refraction of x to y in and out of a sphere of relative index `n`. With Phi the angle between them, delta = pi
-/// - Phi, turn is -delta, or +delta for a ray that passes on the other side: before the fold once -delta, after it once
-/// each. Newton's method on tan((turn - target) / 2), which is convex where turn is and needs no angle, kept inside its
-/// bracket: five steps leave fewer than one root in 2000 of the hardest pairs of ends short of the accuracy of floats.
+/// All refractions of x to y in and out of a sphere of relative index `n`. Let Phi be the angle between x and y and
+/// delta = pi - Phi. Then turn is -delta, or +delta for a ray that passes on the other side. Before the fold there may
+/// be one root for -delta, after it one for each. Newton's method works on tan((turn - target) / 2), which is convex
+/// where turn is and needs no angle, and stays inside its bracket. Of the hardest pairs of ends, fewer than one root in
+/// 2000 is short of the accuracy of floats after five steps.
 template <class F>
 std::array<SphereChain<F>, 3> refracted_chains(const ChainPlane<F>& plane, const ChainEnd<F>& x, const ChainEnd<F>& y,
                                                F n) {
@@ -256,7 +257,7 @@ std::array<SphereChain<F>, 3> refracted_chains(const ChainPlane<F>& plane, const
   const F sin_delta = two * plane.cos_half * plane.sin_half;
   const F cos_delta = (plane.sin_half - plane.cos_half) * (plane.sin_half + plane.cos_half);
 
-  const auto angle = [&](F sin, F cos) {  // in [-pi, pi], by half of it
+  const auto angle = [&](F sin, F cos) {  // in [-pi, pi], by the half angle
     const F half_cos = sqrt(max(F(0.5f) * (one + cos), F(0.25f)));
     const F half =
         arcsine(select(cos > zero, F(0.5f) * sin * reciprocal(half_cos), sqrt(max(F(0.5f) * (one - cos), zero))));
@@ -276,7 +277,7 @@ std::array<SphereChain<F>, 3> refracted_chains(const ChainPlane<F>& plane, const
     if (falling) {
       chain.exists = chain.exists & (fold_sin > zero);
     } else {
-      // The edge may be more than pi above -delta and below +delta.
+      // At the edge, turn may be more than pi above -delta, and it may be below +delta.
       const Mask<F> above = sin_above(edge_turn_sin, edge.cos_turn) >= zero;
       const Mask<F> turns = edge_turn_sin >= zero;
       chain.exists = chain.exists & (k == 1 ? Mask<F>(turns | above) : Mask<F>(turns & above));
@@ -286,7 +287,7 @@ std::array<SphereChain<F>, 3> refracted_chains(const ChainPlane<F>& plane, const
     const F span = falling ? zero - fold_turn : edge_turn - fold_turn;
     const F share = min(max((target - fold_turn) * reciprocal(max(span, F(1e-20f))), zero), one);
     F low = falling ? zero : fold_u, high = falling ? fold_u : one;
-    const F way = sqrt(share);  // as for a parabola about the fold
+    const F way = sqrt(share);  // exact for a parabola about the fold
     F u = falling ? fnma(fold_u, way, fold_u) : fma(one - fold_u, way, fold_u);
     for (int i = 0; i < steps; ++i) {
       const SinCos<F> omega = of_half_tangent(u);
@@ -301,7 +302,7 @@ std::array<SphereChain<F>, 3> refracted_chains(const ChainPlane<F>& plane, const
     }
     const SinCos<F> omega = of_half_tangent(u);
     const RefractedRay<F> ray = refracted_ray(lens, x, y, omega.sin, omega.cos);
-    const F b = (zero - side) * ray.b;  // on the other side for +delta
+    const F b = (zero - side) * ray.b;  // +delta: on the other side
     chain.from_x = fma(plane.across_x, x.a * b, plane.to_x * (zero - ray.x.cos_end));
     chain.from_y = fma(plane.across_y, y.a * b, plane.to_y * (zero - ray.y.cos_end));
     chain.x_length = ray.x.length;

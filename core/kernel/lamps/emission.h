@@ -5,30 +5,29 @@
 #include "lamp/sphere_cone.h"
 #include "math/sampler.h"
 
-/// Where light paths begin: on a lamp, towards the sphere around a mirror or glass.
+/// How light paths begin: on a lamp, towards the bounding sphere of a mirror or glass.
 namespace glimt {
 
 template <class F>
 struct Emission {
   Vec3<F> origin, direction;
-  Vec3<F> flux;    ///< W, over the light paths of a pass; black where the lamp shows its back or is buried
-  Int<F> surface;  ///< that it starts on
+  Vec3<F> flux;    ///< W, divided by the light paths of a pass; 0 behind the lamp or where it is buried
+  Int<F> surface;  ///< the surface that it starts on
   Int<F> target;   ///< a path that meets another surface first does not count
 };
 
-/// One lamp has no more aims than there are surfaces.
+/// Whether lookup_small can hold the aims: one lamp has at most as many aims as there are surfaces.
 template <Features features>
 inline constexpr bool few_aims = (features.one_parallelogram) && (features.small_table);
 
-/// A pair of a lamp and what it is aimed at, in proportion to the flux between them as far as it can be guessed.
+/// Chooses a pair of a lamp and a target, in proportion to the estimated flux between them.
 template <class F, Features features>
 Int<F> choose_aim(const CompiledScene& scene, F u) {
   return choose_row<F, few_aims<features>>(scene.aims[AimColumn::alias_threshold], scene.aims[AimColumn::alias_other],
                                            scene.aims.rows(), u);
 }
 
-/// Whether a point of a lamp is where no path of the camera comes: outside the room or inside an opaque solid or
-/// sphere.
+/// Whether no camera path can reach a point of a lamp: it is outside the room, or inside an opaque solid or sphere.
 template <class F>
 Mask<F> buried(const CompiledScene& scene, const Vec3<F>& point, const Int<F>& own_first, const Int<F>& own_last) {
   Mask<F> inside = no_lanes<F>();
@@ -55,8 +54,8 @@ Mask<F> buried(const CompiledScene& scene, const Vec3<F>& point, const Int<F>& o
   return inside;
 }
 
-/// A light path of the pair in that row: a point uniform by area, a direction uniform in the cone of the sphere around
-/// the target, or by the cosine where the point is inside that sphere.
+/// Begins a light path of the pair in this row. The point is uniform by area. The direction is uniform in the cone of
+/// the sphere around the target, or cosine-distributed where the point is inside that sphere.
 template <class F, Features features>
 Emission<F> emit(const CompiledScene& scene, const Int<F>& row, const Point2<F>& on_lamp, const Point2<F>& to_target) {
   const auto value = [&](AimColumn c) { return lookup_in<F, few_aims<features>>(scene.aims[c], row); };

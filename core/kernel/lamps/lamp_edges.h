@@ -12,7 +12,7 @@
 #include "kernel/transport/path_sums.h"
 
 /// Pixels that an edge of a lamp crosses. A lamp is much brighter than what it lights, so nearly all of the error there
-/// comes from how many samples of the pixel see the lamp. Each sample therefore sends many rays to ask.
+/// comes from how many samples of the pixel see the lamp. So each sample sends many rays to find out.
 namespace glimt {
 
 template <class F, Features features>
@@ -27,7 +27,7 @@ class LampEdges {
   LampEdges(const CompiledScene& scene, const Squares<F>& squares)
       : scene_(scene), surfaces_(scene), squares_(squares) {}
 
-  /// Replaces what the one ray of each path sees of the lamp by the mean over many rays.
+  /// Replaces what each path's one camera ray sees of the lamp by the mean over many rays.
   void refine(PathSums<F>& sums) const {
     const PathBlock& block = squares_.whole;
     std::array<std::int32_t, lane_count<F>> xs{}, ys{}, samples{};
@@ -49,7 +49,7 @@ class LampEdges {
   }
 
  private:
-  /// Paths of pixels (x, y), the first `count` lanes.
+  /// Refines the paths of pixels (x, y) in the first `count` lanes.
   void refine(const I& x, const I& y, const I& sample, int count, PathSums<F>& sums) const {
     const I number = sample + I(static_cast<std::int32_t>(squares_.whole.first_sample));
     V change = emission(camera_sample<F>(scene_, x, y, number).direction) * F(-1.0f);
@@ -62,7 +62,7 @@ class LampEdges {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sums.add(place[i], r[i], g[i], b[i]);
   }
 
-  /// Of a lamp that the ray sees first, outside the places that are looked at apart.
+  /// Radiance of the lamp that a camera ray meets first; 0 in the rectangles that LampImages handles.
   V emission(const V& direction) const {
     const Ray<F> ray{broadcast<F>(scene_.camera.eye), direction, I(-1)};
     const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, ray, all_lanes<F>());

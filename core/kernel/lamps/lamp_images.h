@@ -7,9 +7,9 @@
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
-/// Small lamps that the camera sees, straight or by way of mirrors and glass, are specks that few camera rays meet.
-/// They lie in known rectangles of the image. There, camera paths do not count the lamps that they meet before the
-/// first diffuse surface. Rays that go through these rectangles alone count them.
+/// Small lamps that the camera sees, directly or by way of mirrors and glass, are specks that few camera rays meet.
+/// They lie in known rectangles of the image. In these, camera paths do not count lamps that they meet before the first
+/// diffuse surface. Extra rays through the rectangles count them instead.
 namespace glimt {
 
 /// Whether a direction from the eye, of unit length, goes through one of the rectangles.
@@ -38,7 +38,7 @@ class LampImages {
   LampImages(const CompiledScene& scene, const Squares<F>& squares)
       : scene_(scene), surfaces_(scene), squares_(squares) {}
 
-  /// Adds what camera paths leave out.
+  /// Adds the lamps that camera paths leave out.
   void add(PathSums<F>& sums) {
     const PathBlock& block = squares_.whole;
     const int right = std::min(block.x0 + block.width, scene_.width),
@@ -53,7 +53,7 @@ class LampImages {
   }
 
  private:
-  /// At the part of a pixel, for a sample a lane.
+  /// Traces the rays through a part of a pixel, one sample per lane.
   void look(const LampImage& part, int x, int y, int first, PathSums<F>& sums) const {
     const I sample = I(first) + lane_numbers<F>();
     const I number = sample + I(static_cast<std::int32_t>(squares_.whole.first_sample));
@@ -81,7 +81,7 @@ class LampImages {
     }
   }
 
-  /// Of the lamp that a camera ray meets before a matt or glossy surface. `k`: number of the ray.
+  /// Radiance of the lamp that a camera ray meets before any matt or glossy surface. `k` is the number of the ray.
   V emission(const V& direction, PathKey<F> key, int k) const {
     const int max_depth = setting<features, &Settings::max_depth>(scene_);
     Ray<F> ray{broadcast<F>(scene_.camera.eye), direction, I(-1)};

@@ -12,13 +12,13 @@ template <class F>
 struct LampSample {
   Vec3<F> direction;                   ///< unit, from the shaded point
   F distance;                          ///< metres
-  Vec3<F> weight;                      ///< times `inverse_pdf`: radiance over pdf_w, the choice of the lamp counted in
+  Vec3<F> weight;                      ///< weight * inverse_pdf = radiance / pdf_w, with the choice of the lamp
   F inverse_pdf;                       ///< 0 where the lamp shows its back
   F inverse_choice;                    ///< 1 / pdf_w = inverse_pdf * inverse_choice
-  Int<F> first_surface, last_surface;  ///< the lamp's own, which cannot hide it
+  Int<F> first_surface, last_surface;  ///< the lamp's own surfaces, which cannot hide it
 };
 
-/// A lamp in proportion to its power.
+/// Chooses a lamp in proportion to its power.
 template <class F>
 Int<F> choose_lamp(const CompiledScene& scene, F u) {
   return choose_row(scene.lamps[LampColumn::alias_threshold], scene.lamps[LampColumn::alias_other], scene.lamps.rows(),
@@ -30,8 +30,8 @@ Mask<F> has_shape(const LampRow<F, one>& lamp) {
   return equal(as_int(lamp[LampColumn::shape]), Int<F>(lamp_shape_number<Shape>));
 }
 
-/// A point of the row's lamp, uniform by area; `only_by_area`: no other lamp is asked for. `one_parallelogram`: it is
-/// the only lamp, sampled by area.
+/// A point of the row's lamp, uniform by area. `only_by_area`: the lamp is one that light sampling samples by area.
+/// `one_parallelogram`: the only lamp is a parallelogram sampled by area.
 template <bool one_parallelogram = false, class F, bool one>
 LampPoint<F> lamp_point(const CompiledScene& scene, const LampRow<F, one>& lamp, F u, F v, bool only_by_area = false) {
   if constexpr (one_parallelogram) return ParallelogramLamp::point(lamp, u, v);
@@ -48,7 +48,7 @@ LampPoint<F> lamp_point(const CompiledScene& scene, const LampRow<F, one>& lamp,
   return at;
 }
 
-/// How `from` sees a point of the row's lamp, which its shape chooses.
+/// How `from` sees a point of the row's lamp; the lamp's shape chooses the point.
 template <class F, bool one>
 SeenLamp<F> see_lamp(const CompiledScene& scene, const LampRow<F, one>& lamp, const Vec3<F>& from, F u, F v) {
   SeenLamp<F> seen{};
@@ -81,8 +81,8 @@ LampSample<F> sample_row(const CompiledScene& scene, const LampRow<F, one>& lamp
           as_int(lamp[LampColumn::last_surface])};
 }
 
-/// A direction towards a lamp. `choice` is used only where there are several; `one_parallelogram`: it is the only lamp,
-/// sampled by area.
+/// A direction towards a lamp. `choice` is used only if there are several lamps. `one_parallelogram`: the only lamp is
+/// a parallelogram sampled by area.
 template <class F, bool one_parallelogram>
 LampSample<F> sample_lamp(const CompiledScene& scene, const Vec3<F>& from, F choice, F u, F v) {
   const LampRow<F, true> first{scene.lamps, Int<F>(0)};
@@ -100,8 +100,8 @@ LampSample<F> sample_lamp(const CompiledScene& scene, const Vec3<F>& from, F cho
   return sample_row(scene, LampRow<F, false>{scene.lamps, choose_lamp(scene, choice)}, from, u, v);
 }
 
-/// 1 / pdf_w with which light sampling from `from` chooses a point that it can choose: one of the lamp in `row`, at
-/// that distance, seen by the lamp at that cosine.
+/// 1 / pdf_w of light sampling from `from` for a point of the lamp in `row` at this distance, at which the lamp sees
+/// `from` under cos_lamp.
 template <class F>
 F lamp_inverse_pdf(const CompiledScene& scene, const Int<F>& row, const Vec3<F>& from, F distance, F cos_lamp) {
   const LampRow<F, false> lamp{scene.lamps, row};

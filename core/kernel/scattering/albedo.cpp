@@ -13,7 +13,7 @@ double directional_albedo(const Material& material, double angle) {
   const CompiledScene compiled = compile(scene);
   const Surfaces<float, Features{}> surfaces(compiled);
 
-  // The top of the sphere, seen at the angle.
+  // The top of the sphere, seen under this angle.
   const Vec3<float> towards{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
   Interaction<float> at{};
   at.point = at.normal = {0, 0, 1};
@@ -22,7 +22,7 @@ double directional_albedo(const Material& material, double angle) {
   at.cos_o = towards.z;
   surfaces.look_up_kind(at);
 
-  // Points of an additive recurrence in three dimensions: multiples of powers of 1/g, g^4 = g + 1 (Roberts 2018).
+  // Points of an additive recurrence in three dimensions: multiples of powers of 1/g with g^4 = g + 1 (Roberts 2018).
   constexpr int samples = 1 << 14;
   constexpr double g = 1.2207440846057596;
   double sum = 0;

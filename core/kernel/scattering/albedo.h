@@ -4,9 +4,9 @@
 
 namespace glimt {
 
-/// Share of the light that a surface sends on, reflected and refracted, of light that comes at that angle to the normal
-/// from the front side (radians): the directional albedo, green. What is missing from 1 in a material that absorbs
-/// nothing is light that one facet sends to another. Flux is counted, so refraction has no factor n^2. Good to 0.001.
+/// The directional albedo, green channel: the share of light, arriving on the front side at this angle to the normal
+/// (radians), that the surface reflects or refracts. If the material absorbs nothing, the rest is light that one facet
+/// sends to another. It is a share of flux, so refraction has no factor n^2. Accurate to 0.001.
 double directional_albedo(const Material& material, double angle);
 
 }  // namespace glimt

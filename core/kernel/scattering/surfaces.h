@@ -5,11 +5,11 @@
 #include "math/sampler.h"
 #include "math/warp.h"
 
-/// Surfaces where paths meet them, for paths from the camera and from lamps alike. No estimator knows a material: each
-/// asks a surface for its colour, and for sample, evaluate and pdf_w of what is left once the colour is taken out.
+/// Surfaces where camera paths and light paths meet them. Estimators know no materials. They ask a surface for its
+/// colour, and for sample, evaluate and pdf_w of its BSDF without the colour.
 namespace glimt {
 
-/// What roulette leaves at most, so that light trapped in glass ends; see compile_warnings.cpp.
+/// The largest survival probability of Russian roulette, so that paths trapped in glass end; see compile_warnings.cpp.
 inline constexpr float largest_survival = 0.99f;
 
 /// The surface table and the lobes in it.
@@ -48,7 +48,7 @@ class Surfaces {
     return at;
   }
 
-  /// To the side that `at` says.
+  /// The normal on the side that at.front names.
   V normal(const At& at) const { return own_normal(at) * select(at.front, F(1.0f), F(-1.0f)); }
   void look_up_kind(At& at) const { at.kind = as_int(value(Column::kind, at)); }
 
@@ -57,9 +57,9 @@ class Surfaces {
     return less(at.kind, I(first_kind(LobeClass::none))) & !less(at.kind, I(first_kind(LobeClass::glossy)));
   }
   static M is_lamp(const At& at) { return !less(at.kind, I(first_kind(LobeClass::none))); }
-  /// A plane or triangle, not a sphere.
+  /// Whether the surface is flat, not a sphere.
   M is_flat(const At& at) const { return !(value(Column::inverse_radius, at) > F(0.0f)); }
-  /// Whether light goes on behind it.
+  /// Whether light passes through the surface.
   static M transmits(const At& at) {
     M found = no_lanes<F>();
     for_each_lobe([&]<class L>() {
@@ -67,7 +67,7 @@ class Surfaces {
     });
     return found;
   }
-  /// Whether a matt surface sends the same light in all directions.
+  /// Whether a matt surface is equally bright in all directions.
   M is_even(const At& at) const {
     return has_rough_matt() ? equal(at.kind, I(lobe_kind<LambertianLobe>)) : all_lanes<F>();
   }
@@ -82,11 +82,11 @@ class Surfaces {
   /// Whether some surface is glass.
   bool has_glass() const { return scene_.has_glass; }
 
-  /// What all light is multiplied by that the surface sends on.
+  /// The factor of all light that the surface scatters.
   V colour(const At& at) const { return vector(Column::reflectance_r, at); }
 
-  /// Where a path goes on that came from wo. `lobe` is a third number, for those that need one. Lanes at lamps go on
-  /// as they came; they are to end.
+  /// Samples the direction in which a path from wo goes on. `lobe` is a third random number for lobes that need one.
+  /// Lanes at lamps go straight on; the caller ends them.
   ScatterSample<F> sample(const At& at, const V& wo, const Point2<F>& uv, F lobe) const {
     ScatterSample<F> s{wo * F(-1.0f), V::all(F(1.0f)), F(0.0f), no_lanes<F>(), F(1.0f), F(1.0f)};
     const M matt = is_matt(at);
@@ -108,13 +108,14 @@ class Surfaces {
     return s;
   }
 
-  /// The BSDF over colour / pi, for light from wi and radiance towards wo; 0 for delta lobes. Cosines are to at.normal.
+  /// The BSDF divided by colour / pi, for light from wi and radiance towards wo. Meaningless for delta lobes. Cosines
+  /// are to at.normal.
   V evaluate(const At& at, const V& wi, const V& wo, F cos_i, F cos_o) const {
     V f = evaluate_matt(at, wi, wo, cos_i, cos_o);
     if (has_glossy() && any(is_glossy(at))) evaluate_glossy(at, wi, wo, cos_i, cos_o, f);
     return f;
   }
-  /// The same where every surface that is asked is matt.
+  /// The same where every lane that counts is at a matt surface.
   V evaluate_matt(const At& at, const V& wi, const V& wo, F cos_i, F cos_o) const {
     V f = V::all(F(1.0f));
     for_each_lobe([&]<class L>() {
@@ -127,7 +128,7 @@ class Surfaces {
     return f;
   }
 
-  /// Density with which sample() chooses wi, 1/sr; 0 for delta lobes.
+  /// The pdf with which sample() chooses wi, 1/sr. Meaningless for delta lobes.
   F pdf_w(const At& at, const V& wi, const V& wo, F cos_i, F cos_o) const {
     F pdf = cos_i * F(std::numbers::inv_pi_v<float>);
     if (has_glossy() && any(is_glossy(at))) pdf_w_glossy(at, wi, wo, cos_i, cos_o, pdf);
@@ -135,7 +136,7 @@ class Surfaces {
   }
 
  private:
-  /// A lobe's view of the table: its own columns by their numbers.
+  /// A lobe's view of the surface table: its own columns by number.
   template <class L>
   struct Row {
     const Surfaces& surfaces;
@@ -143,7 +144,7 @@ class Surfaces {
 
     F operator()(int column) const { return surfaces.value(lobe_column(first_column<L>() + column), at); }
     V vector(int first) const { return surfaces.vector(lobe_column(first_column<L>() + first), at); }
-    /// Index behind the surface's front over the index before it.
+    /// Index behind the surface's front divided by the index before it.
     F eta() const { return surfaces.value(Column::eta, at); }
   };
 
@@ -153,7 +154,7 @@ class Surfaces {
     return (features.lobes & lobe_bit<L>) != 0 && (scene_.lobes & lobe_bit<L>) != 0;
   }
 
-  /// What the lobe may change of a sample.
+  /// Takes from `other` what the lobe may change of a sample.
   template <class L>
   static void take(ScatterSample<F>& s, const M& mask, const ScatterSample<F>& other) {
     s.direction = select(mask, other.direction, s.direction);
@@ -166,7 +167,7 @@ class Surfaces {
     }
   }
 
-  /// f.template operator()<L>(mask) for each glossy lobe and the lanes that have it.
+  /// Calls f.template operator()<L>(mask) for each glossy lobe and the lanes that have it.
   template <class Function>
   void for_glossy(const At& at, Function f) const {
     for_each_lobe([&]<class L>() {
@@ -178,7 +179,7 @@ class Surfaces {
     });
   }
 
-  // Calls, since the compiler would take minutes over one function with several copies of them.
+  // Not inlined: the compiler would need minutes for a function with several copies of these.
   [[gnu::noinline]] void sample_glossy(const At& at, const V& wo, const Point2<F>& uv, const F& lobe,
                                        ScatterSample<F>& s) const {
     for_glossy(at, [&]<class L>(const M& mask) {
@@ -204,7 +205,7 @@ class Surfaces {
     return select(inverse_radius > F(0.0f), (at.point - n) * inverse_radius, n);
   }
 
-  static constexpr int small_stride = 32;  ///< of tables with up to 32 rows, so that columns are at fixed places
+  static constexpr int small_stride = 32;  ///< stride of tables with up to 32 rows, so that columns have fixed places
   static_assert(small_table <= small_stride && small_stride == Table<Column>::padding);
 
   const CompiledScene& scene_;

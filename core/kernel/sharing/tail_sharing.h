@@ -8,33 +8,34 @@
 #include "kernel/scattering/surfaces.h"
 #include "kernel/transport/path_sums.h"
 
-/// The four pixels of a square share the ends of their paths. A path has a first diffuse surface x and, where it then
-/// meets a matt surface y, a tail: the light that y sends back, evenly in all directions. The tail that one pixel has
-/// found is offered to the x of the others, and counts for each by the balance heuristic over all that could have found
-/// y, so that three rays of visibility buy four times the tails (Bekaert, Sbert and Halton, "Accelerating path tracing
-/// by re-using paths", 2002). The weights of a tail add up to 1 over the square: it is shared out, never made brighter.
+/// The four pixels of a square share the ends of their paths (Bekaert, Sbert and Halton, "Accelerating path tracing by
+/// re-using paths", 2002). A path has a first diffuse surface x. If it then meets a matt surface y that is equally
+/// bright in all directions, it has a tail: the radiance that leaves y. The tail that one pixel found is offered to the
+/// x of the others. Its weight at each x is the balance heuristic over all x that could have found y. So three
+/// visibility rays give a pixel four tails. The weights of a tail add up to 1 over the square: sharing never makes it
+/// brighter.
 namespace glimt {
 
-/// The first diffuse surface of a path, from where the path is at the next.
+/// The first diffuse surface of a path, kept until the path has met the next surface.
 template <class F>
 struct FirstDiffuse {
   Ray<F> ray;  ///< to the next surface
   Mask<F> front;
   Int<F> of_class;     ///< only surfaces of the same class share
-  Vec3<F> throughput;  ///< with the reflectance, without what makes the surface rough
-  Vec3<F> wo;          ///< of rough surfaces only
+  Vec3<F> throughput;  ///< includes the reflectance, but not the rest of a rough surface's BRDF
+  Vec3<F> wo;          ///< for rough surfaces only
 };
 
-/// What is known of the paths of a block, by their places.
+/// What is known of each path of a block, by the path's place.
 struct TailTable {
   enum Number : std::size_t { x_point, x_throughput = 3, y_point = 6, x_wo = 9, number_count = 12 };
   enum Integer : std::size_t { x_class, x_side, y_side, integer_count };
-  static constexpr std::int32_t none = -1;  ///< of integers, where there is no such surface
+  static constexpr std::int32_t none = -1;  ///< value of integers where there is no such surface
 
   std::array<std::vector<float>, number_count> numbers;
   std::array<std::vector<std::int32_t>, integer_count> integers;
 
-  /// Nothing known of so many paths. Memory is kept.
+  /// Begins with this many paths of which nothing is known. Keeps its memory.
   void begin(int places) {
     for (auto& column : numbers) column.resize(static_cast<std::size_t>(places));
     for (auto& column : integers) column.assign(static_cast<std::size_t>(places), none);
@@ -52,7 +53,7 @@ class TailSharing {
  public:
   TailSharing(const CompiledScene& scene, TailTable& table) : scene_(scene), surfaces_(scene), table_(table) {}
 
-  /// Notes the x of the paths in the mask and the surface after it, which is their y where `is_y`.
+  /// Records, for the paths in the mask, x and the surface after it, which is their y where `is_y`.
   void add(const FirstDiffuse<F>& x, const Interaction<F>& y, const M& is_y, const I& place, const M& mask) {
     const auto next = static_cast<std::size_t>(count_);
     const auto keep = [&](const V& v, std::size_t c) {
@@ -72,7 +73,7 @@ class TailSharing {
     if (count_ >= capacity) flush();
   }
 
-  /// Adds to the paths' own sums what they get of the tails of their squares.
+  /// Adds to the paths' own sums their shares of the tails in their squares.
   void share(const Squares<F>& squares, Sums& sums) {
     flush();
     for (int first = 0; first < squares.plane; first += lane_count<F>) share_squares(first, squares.plane, sums);
@@ -81,7 +82,7 @@ class TailSharing {
  private:
   static constexpr std::size_t members = Squares<F>::members;
 
-  /// A surface and which side of it.
+  /// A number for a surface and one side of it.
   static I side(const I& surface, const M& front) { return surface + surface + select(front, I(1), I(0)); }
 
   void flush() {
@@ -101,7 +102,7 @@ class TailSharing {
   }
   I integer(T::Integer column, int place) const { return load<I>(table_.integers[column].data() + place); }
 
-  /// A surface that was noted; any where there is none.
+  /// A surface that was recorded; any surface where there is none.
   Interaction<F> surface(T::Number point, T::Integer column, int place) const {
     const I side = integer(column, place), known = select(less(side, I(0)), I(0), side);
     Interaction<F> at;
@@ -112,7 +113,7 @@ class TailSharing {
     return at;
   }
 
-  /// All tails of as many squares as there are lanes.
+  /// Shares all tails of as many squares as there are lanes.
   void share_squares(int first, int plane, Sums& sums) const {
     const auto place = [&](std::size_t member) { return first + static_cast<int>(member) * plane; };
     std::array<Interaction<F>, members> x;
@@ -130,7 +131,7 @@ class TailSharing {
       if (!any(tailed)) continue;
       const Interaction<F> y = surface(T::y_point, T::y_side, place(j));
       const I of_class = integer(T::x_class, place(j));
-      std::array<F, members> pdf_a;  // with which x would have found y, times pi
+      std::array<F, members> pdf_a;  // pdf with which x would have found y, times pi
       std::array<V, members> way;
       F sum(0.0f);
       for (std::size_t k = 0; k < members; ++k) {
@@ -154,7 +155,7 @@ class TailSharing {
         if (surfaces_.has_rough_matt())
           light = light * surfaces_.evaluate_matt(x[k], way[k], vector(T::x_wo, place(k)), dot(way[k], x[k].normal),
                                                   x[k].cos_o);
-        // Other lanes may hold values that are no numbers.
+        // Other lanes may hold NaN.
         got[k] = got[k] + select(pdf_a[k] > F(0.0f), light, V::all(F(0.0f)));
       }
     }
@@ -169,7 +170,7 @@ class TailSharing {
   const CompiledScene& scene_;
   Surfaces<F, features> surfaces_;
   TailTable& table_;
-  int count_ = 0;  ///< paths that wait to be put into the table
+  int count_ = 0;  ///< paths that are not in the table yet
   std::array<Waiting<float>, T::number_count> numbers_;
   std::array<Waiting<std::int32_t>, T::integer_count> integers_;
   Waiting<std::int32_t> place_;
