@@ -10,7 +10,7 @@ inline constexpr int surroundings_count = 5;
 
 /// Objects of every shape within [-4, 4]^3, each with its own material. Material i has reflectance.r (i + 1) / 256; a
 /// lamp has radiance.r i + 1, glass has ior 1.2 + i / 64. There are lambertian, Oren-Nayar (both formulas), mirror and
-/// glass surfaces (both Fresnel formulas), lamps of every kind, and in half of the scenes a glass sphere in another.
+/// glass surfaces (both Fresnel formulas), up to four lamps, and in half of the scenes a glass sphere in another.
 /// The camera is at (0, 0, 3.5).
 class RandomScene {
  public:
