@@ -13,7 +13,7 @@
 namespace glimt {
 
 struct ReportPlan {
-  bool quick = false;  ///< small pictures and few samples: shows the page, proves nothing
+  bool quick = false;  ///< small pictures and few samples, only to see the page
   Execution execution;
   std::function<void(const std::string&)> say;  ///< is told what is measured now
 

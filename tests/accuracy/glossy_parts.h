@@ -14,7 +14,7 @@ inline Material metal(double roughness, const dvec3& eta = dvec3{0.143, 0.375, 1
       .with(Conductor::k, k)
       .with(Conductor::roughness, roughness);
 }
-/// Reflects everything: its Fresnel factor is 1.
+/// A metal that reflects all light: its Fresnel factor is 1.
 inline Material white_metal(double roughness) { return metal(roughness, dvec3{0}, dvec3{1}); }
 inline Material frosted(double roughness, double ior = 1.5) {
   return glass("model", ior).with(Glass::roughness, roughness);

@@ -6,13 +6,13 @@
 
 #include "scene_parts.h"
 
-/// Light in a convex room of Lambertian walls by a linear system: patches of constant radiance, with the exact share of
-/// each patch in what a point sees.
+/// Light in a convex room with Lambertian walls, from a linear system: patches have constant radiance, and the form
+/// factor from a point to a patch is exact.
 namespace glimt {
 
-/// Share of the cosine-weighted hemisphere of a point that a polygon covers which is wholly above its horizon: half the
-/// sum over the edges of the angle they are seen under times the component of the edge's plane's normal (Lambert 1760),
-/// over pi.
+/// The share of a point's cosine-weighted hemisphere that a polygon covers, where the polygon is wholly above the
+/// horizon (Lambert 1760). Each edge and the point span a plane. Sum, over the edges, the angle under which the edge is
+/// seen times the component of that plane's unit normal along `normal`; then divide by 2 pi.
 inline double form_factor(const std::vector<dvec3>& polygon, const dvec3& point, const dvec3& normal) {
   double sum = 0;
   dvec3 a = normalize(polygon.back() - point);
@@ -33,11 +33,11 @@ struct Patch {
   dvec3 radiance{0};
 };
 
-/// A room with a lamp that is flush with a face as far as the rest of the room can tell.
+/// A room with a lamp that lies in one of its faces, or so close to it that the rest of the room sees no difference.
 struct Room {
   std::vector<Patch> patches;
   std::vector<dvec3> lamp;  ///< corners
-  int lamp_face = 0;        ///< sees no light of the lamp
+  int lamp_face = 0;        ///< the face with the lamp, which gets no direct light
   dvec3 emitted{0};         ///< radiance of the lamp
 
   /// Radiance that a point of a face reflects.

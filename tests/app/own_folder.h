@@ -8,7 +8,7 @@
 
 namespace glimt::testing {
 
-/// A test in a folder of its own, which is the current one and goes with it.
+/// A test with its own folder, which is the current folder and is removed after the test.
 class OwnFolder : public ::testing::Test {
  protected:
   void SetUp() override {

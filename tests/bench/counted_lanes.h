@@ -5,9 +5,9 @@
 
 #include "kernel/transport/path.h"
 
-/// Lanes that count what is done with them. The kernel instantiated for Counted<V> computes what it computes for V, bit
-/// for bit, so the counts are those of the real kernel: with V = float what the paths need, with V = NativeLanes what
-/// is executed. Masks are not counted. One thread at a time.
+/// Lanes that count the operations on them. The kernel for Counted<V> computes the same as for V, bit for bit, so the
+/// counts are those of the real kernel. V = float counts what the paths need, V = NativeLanes what is executed. Masks
+/// are not counted. Only one thread may count at a time.
 namespace glimt {
 
 enum class Operation {
@@ -84,7 +84,7 @@ struct IsFloat : std::is_same<V, float> {};
 template <class A>
 struct IsFloat<xsimd::batch<float, A>> : std::true_type {};
 
-/// Counts as this where V is floating-point, else as an integer operation.
+/// The operation `o` if V is floating-point, else an integer operation.
 template <class V>
 constexpr Operation arithmetic(Operation o) {
   return IsFloat<V>::value ? o : Operation::integer;
@@ -212,7 +212,7 @@ template <class V>
 auto lookup_small(const float* table, Counted<V> index) {
   return counted(Operation::lookup, lookup_small(table, index.v));
 }
-/// Another reading of the same bits, which costs nothing.
+/// The same bits read as another type, which costs nothing.
 template <class V>
 auto as_int(Counted<V> a) {
   Counted<decltype(as_int(a.v))> result;

@@ -81,9 +81,9 @@ class Tree {
   RTCScene scene_;
 };
 
-/// Origins, directions and ends of rays, compiled space.
+/// Origins, directions and ends of rays, in compiled space.
 struct Rays {
-  std::array<std::vector<float>, 3> origin, direction, to_light;  ///< `to_light`: unit, of the shadow rays
+  std::array<std::vector<float>, 3> origin, direction, to_light;  ///< `to_light`: unit directions of the shadow rays
   std::vector<float> light_distance;                              ///< metres
 };
 
@@ -106,8 +106,8 @@ inline RTCIntersectContext context(RTCIntersectContextFlags flags = RTC_INTERSEC
   return c;
 }
 
-/// The rays of a random walk from the camera: each starts near the surface that the one before has hit, in a uniform
-/// direction off it. A shadow ray joins two of their origins.
+/// The rays of a random walk from the camera. Each starts near the surface that the last one hit, in a uniform
+/// direction away from it. A shadow ray joins two of the origins.
 inline Rays random_walk(RTCScene tree, const CompiledScene& scene, int rays) {
   using glm::vec3;
   std::mt19937 random(1);

@@ -10,17 +10,17 @@
 
 namespace glimt {
 
-/// What many paths along one ray bring, in one channel.
+/// Statistics of the radiance that many paths along one ray bring, in one channel.
 struct Samples {
-  Estimate mean;      ///< over 32 groups of paths
+  Estimate mean;      ///< from 32 groups of paths
   double second = 0;  ///< mean square
   double smallest = 0, largest = 0;
-  int lit = 0;  ///< paths that bring anything
+  int lit = 0;  ///< number of paths that bring any light
 
   double relative_variance() const { return second / (mean.mean * mean.mean) - 1; }
 };
 
-/// Paths from `eye` along `direction`, by independent random numbers unless the scene says otherwise.
+/// Traces paths from `eye` along `direction`.
 inline Samples samples_along(const CompiledScene& scene, const dvec3& eye, const dvec3& direction, int paths,
                              float Rgb::*channel = &Rgb::g) {
   constexpr std::size_t groups = 32;
@@ -41,8 +41,9 @@ inline Samples samples_along(const CompiledScene& scene, const dvec3& eye, const
   return s;
 }
 
-/// Irradiance by a polygon of radiance 1 at `point`, the polygon wholly above its horizon: half the sum over the edges
-/// of the angle they are seen under times the component of the edge's plane's normal (Lambert 1760).
+/// Irradiance at `point` from a polygon of radiance 1 wholly above the horizon (Lambert 1760). Each edge and the point
+/// span a plane. Sum, over the edges, the angle under which the edge is seen times the component of that plane's unit
+/// normal along `normal`; then divide by 2.
 inline double lambert_irradiance(const std::vector<dvec3>& polygon, const dvec3& point, const dvec3& normal) {
   double sum = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

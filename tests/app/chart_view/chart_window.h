@@ -2,7 +2,7 @@
 
 #include "app/viewer/offscreen.h"
 
-/// The window with its chart, and the visit that the tests of both make.
+/// The window with its chart, and the steps that several tests share.
 namespace glimt::testing {
 
 inline const ChartState& chart(const Offscreen& window) { return window.state().chart; }
@@ -13,7 +13,7 @@ inline void show_chart(Offscreen& window) {
   window.apply(edits);
 }
 
-/// Renders to the target; the last frame is then in its curve, measured.
+/// Renders to the target, until the last frame is measured and in its curve.
 inline void finish(Offscreen& window) {
   ASSERT_TRUE(window.draw_until_finished());
   ASSERT_TRUE(window.draw_until([&] {
@@ -23,7 +23,7 @@ inline void finish(Offscreen& window) {
   }));
 }
 
-/// The report's visit: 1, 4 and 30 shadow rays, and another sampler.
+/// Tries what the report tried, 1, 4 and 30 shadow rays, and another sampler.
 inline void visit(Offscreen& window) {
   finish(window);
   for (const int rays : {4, 30}) {

@@ -7,7 +7,7 @@
 
 #include "app/cli/program.h"
 
-/// A folder of its own and the program to run in it.
+/// A test with its own folder, in which it runs the program.
 class CommandLine : public testing::Test {
  protected:
   using Arguments = std::vector<std::string>;

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-/// The built program `glimt` as tests run it: as a process of its own, without a display.
+/// Runs the built program `glimt` as a separate process without a display.
 namespace glimt::program {
 
 struct Result {
   int status = -1;  ///< exit status, or 128 + the signal that ended it
   std::string out, err;
-  long peak_kilobytes = 0;  ///< largest resident size; 0 where it ran on a terminal
+  long peak_kilobytes = 0;  ///< largest resident size; 0 if it ran on a terminal
 };
 
-/// glimt in `folder` with its output piped, from now on until it ends or is killed with this object.
+/// glimt running in `folder` with its output piped. It is killed with this object if it has not ended.
 class Running {
  public:
   Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
@@ -34,8 +34,8 @@ class Running {
 /// Runs glimt in `folder` with its output piped.
 Result run(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
-/// Runs glimt in `folder` with a terminal of 100 columns; `out` is what the terminal got. Where `interrupt_at` is not
-/// empty, Ctrl-C is pressed once that text has been shown.
+/// Runs glimt in `folder` on a terminal of 100 columns; `out` is what the terminal got. If `interrupt_at` is not empty,
+/// presses Ctrl-C once this text was shown.
 Result run_on_terminal(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                        const std::string& interrupt_at = {});
 

@@ -26,7 +26,7 @@
 /// The window's contents drawn into memory, with a mouse that a test moves.
 namespace glimt::testing {
 
-/// The report's room, small, with the Oren-Nayar sphere at its roughness of 0.6.
+/// The report's room at a small size.
 inline Scene small_room(int spp = 4) {
   const std::vector<std::string> small{"image.width=96", "image.height=72", "render.spp=" + std::to_string(spp)};
   return read_scene(std::filesystem::path(GLIMT_SCENES) / "report.toml", small);
@@ -34,8 +34,8 @@ inline Scene small_room(int spp = 4) {
 
 class Offscreen {
  public:
-  /// `width` and `height` in window coordinates, `ratio` framebuffer pixels for each. Rendering stops where the scene's
-  /// file says.
+  /// `width` and `height` are in window coordinates, each of which has `ratio` framebuffer pixels. Rendering stops
+  /// where the scene's settings say.
   Offscreen(Scene scene, int width, int height, float scale = 1, int ratio = 1)
       : width_(width), height_(height), ratio_(ratio), scale_(scale), pixels_(4UL * ratio * width * ratio * height) {
     context_ = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
@@ -68,13 +68,13 @@ class Offscreen {
     controller_->apply(edits);
     draw();
   }
-  /// What a person asks for goes through the screen to the controller, as in the window's loop.
+  /// Passes what a person asks for through the screen to the controller, as the window's loop does.
   void ask(Edits edits) {
     screen_->lay_out(controller_->state(), scale_, edits);
     controller_->apply(edits);
     draw();
   }
-  /// A key, with nothing else going on.
+  /// Presses a key while nothing else uses keys.
   void key(const KeyPress& press) {
     Edits edits;
     press_key(press, {}, state(), edits);
@@ -99,7 +99,7 @@ class Offscreen {
     return found->second;
   }
 
-  /// Pictures as the window's loop draws them; several, so that menus and hovering settle.
+  /// Draws pictures as the window's loop does; several, so that menus and hovering settle.
   void draw(int pictures = 3) {
     for (int i = 0; i < pictures; ++i) {
       controller_->poll();
@@ -135,7 +135,7 @@ class Offscreen {
     });
   }
 
-  /// Moves the mouse to a place in the image (pixels from its top left), presses, drags by so many window coordinates,
+  /// Moves the mouse to (x, y) in the image (pixels from its top left), presses, drags by (dx, dy) window coordinates,
   /// and lets go.
   void drag_in_image(float x, float y, float dx, float dy, int button = 0) {
     ImGuiIO& io = ImGui::GetIO();
@@ -206,7 +206,7 @@ class Offscreen {
   }
 
  private:
-  /// Lets go, and takes the mouse away, with it the tooltip that may stand over the picture.
+  /// Lets go and takes the mouse away, so that no tooltip covers the picture.
   void release(int button = 0) {
     ImGuiIO& io = ImGui::GetIO();
     io.MouseDown[button] = false;
@@ -227,7 +227,7 @@ inline bool apart(const Rect& r, const Rect& s) {
   return r.x + r.width <= s.x || s.x + s.width <= r.x || r.y + r.height <= s.y || s.y + s.height <= r.y;
 }
 
-/// With GLIMT_SCREENSHOTS=FOLDER what is drawn is saved there, to be looked at.
+/// With GLIMT_SCREENSHOTS=FOLDER, saves what is drawn there, for people to look at.
 inline void save_screenshot(const Offscreen& window, const std::string& name) {
   const char* folder = std::getenv("GLIMT_SCREENSHOTS");
   if (folder == nullptr) return;

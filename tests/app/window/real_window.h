@@ -23,7 +23,7 @@
 #include "film/image_file.h"
 #include "scene/file/scene_file.h"
 
-/// The program with its real window, on an X server without a screen, driven from outside by mouse and keys.
+/// The program with its real window on an X server without a screen. Tests drive it from outside by mouse and keys.
 namespace glimt::testing {
 
 namespace fs = std::filesystem;
@@ -47,10 +47,10 @@ inline std::string content(const fs::path& file) {
   return text.str();
 }
 
-/// A program that is running; killed where it has not ended by itself.
+/// A running program. It is killed if it has not ended by itself.
 class Process {
  public:
-  /// Standard error goes to the file.
+  /// Starts the program; its standard error goes to the file.
   Process(const std::vector<std::string>& command, const fs::path& errors, int kept_open = -1) {
     id_ = fork();
     if (id_ != 0) return;
@@ -70,7 +70,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// Exit code, or -1 where it does not end in time.
+  /// The exit code, or -1 if the program does not end in time.
   int wait() {
     int status = 0;
     if (!wait_for([&] { return waitpid(id_, &status, WNOHANG) == id_; })) return -1;
@@ -92,7 +92,7 @@ class WindowTest : public ::testing::Test {
     setenv("GLIMT_WIDGET_LOG", "widgets", 1);
     setenv("GLIMT_FRAME_LOG", "frames", 1);
     setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
-    // Small pictures, as the scenes of the tests have them, are soon rendered.
+    // The pictures keep the small sizes of the tests' scenes, which render quickly.
     fs::create_directories("config/glimt");
     std::ofstream("config/glimt/window.toml") << "picture_fits_window = false\n";
     unsetenv("WAYLAND_DISPLAY");
@@ -184,7 +184,7 @@ class WindowTest : public ::testing::Test {
     xdotool("sleep 0.05 click 1 sleep 0.05");
   }
 
-  /// At the pace of a hand: ImGui takes in one change of a button in a picture.
+  /// Drags as slowly as a hand, because ImGui takes in only one change of a button in each picture.
   static void drag(const std::string& name, double from, double to) {
     point_at(name, from);
     xdotool("mousedown 1 sleep 0.08");
@@ -199,10 +199,10 @@ class WindowTest : public ::testing::Test {
     EXPECT_TRUE(is_gone(menu + "." + item)) << menu << " stays open";
   }
 
-  /// Until then the window goes on without end.
+  /// Without this the window renders without end.
   static void stop_at_the_files_samples() { choose("stop_at", "samples"); }
 
-  /// Takes a snapshot of `stem` and returns the scene in it.
+  /// Takes a snapshot, whose name begins with `stem`, and returns the scene in it.
   Scene snapshot(const std::string& stem) {
     xdotool("key s");
     const std::string number = std::to_string(++snapshots_);
@@ -217,7 +217,7 @@ class WindowTest : public ::testing::Test {
     return text.ends_with(" 1\n");
   }
 
-  /// A picture was shown that is not the coarse one.
+  /// Whether a picture other than the coarse preview was shown.
   static bool has_samples() {
     std::istringstream text(content("frames"));
     for (std::string time, samples, end; text >> time >> samples >> end;)

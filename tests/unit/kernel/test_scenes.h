@@ -21,14 +21,14 @@ inline Scene scene_of(std::vector<Sphere> spheres, std::vector<Polygon> polygons
 
 using Paths = std::vector<std::string>;
 
-/// Where validate() finds problems.
+/// The places where validate() finds problems.
 inline Paths paths(const Scene& scene) {
   Paths result;
   for (const Problem& problem : validate(scene)) result.push_back(problem.path);
   return result;
 }
 
-// Meshes, triangles counter-clockwise from outside.
+// Meshes, whose triangles are counter-clockwise seen from outside.
 
 inline Mesh cuboid(const dvec3& low, const dvec3& high) {
   Mesh mesh{.name = "", .material = "glass", .vertices = {}, .triangles = {}};
