@@ -20,7 +20,7 @@ using glm::dvec3;
 /// Least angle of the view from straight up and straight down, radians.
 constexpr double from_pole = 0.05;
 constexpr double nearest = 1e-3;     ///< least distance of the eye from look_at, metres
-constexpr double margin = 0.005;     ///< of moved cameras to surfaces, in sizes of the scene
+constexpr double margin = 0.005;     ///< distance of moved cameras from surfaces, in sizes of the scene
 constexpr double longest_arc = 0.1;  ///< of a step of an orbit, radians
 constexpr double least_lit = 0.125;  ///< least share of the picture in which a moved camera sees light
 

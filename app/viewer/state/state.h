@@ -35,7 +35,7 @@ struct ViewerState {
   Camera opened_camera;                           ///< as in the file, to return to
   ImageSize opened_size{};                        ///< the picture's size in the file
   std::filesystem::path file;                     ///< of the scene; empty where the scene came from a picture
-  std::filesystem::path folder;                   ///< last opened in the files' sheet
+  std::filesystem::path folder;                   ///< where the files' sheet opens
   std::optional<ObjectId> selected;               ///< always an object of the scene
   Display display;
   bool paused = false, can_undo = false, can_redo = false;

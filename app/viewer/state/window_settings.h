@@ -13,8 +13,8 @@ namespace glimt {
 struct WindowSettings {
   int width = 1312, height = 828;  ///< design units; a picture of 400 x 400 fits exactly doubled
   Display display;
-  std::filesystem::path folder;  ///< last opened in the files' sheet; empty: the current one
-  bool hint_seen = false;        ///< the hint for the first start was dismissed
+  std::filesystem::path folder;  ///< where the files' sheet opens; empty: the current folder
+  bool hint_seen = false;        ///< the hint for the first start is not needed any more
   ChartView chart;
   DragView drag_view = DragView::automatic;
   bool fits_window = true;  ///< the picture's size follows the free space in the window
