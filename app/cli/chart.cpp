@@ -13,6 +13,7 @@
 #include "cli/progress_bar.h"
 #include "cli/render_options.h"
 #include "film/file_bytes.h"
+#include "import/import.h"
 #include "scene/file/scene_file.h"
 
 namespace glimt {
@@ -38,7 +39,7 @@ Variant make_variant(const std::string& name, const SceneOptions& options) {
     label += (label.empty() ? "" : ", ") + words(part);
   }
   try {
-    return {name, label, compile(read_scene(options.scene, overrides))};
+    return {name, label, compile(read_or_import(options.scene, overrides).scene)};
   } catch (const SceneError& error) {
     throw BadInput("--methods " + name + ": " + error.what());
   }
@@ -94,7 +95,7 @@ int run_chart(ChartOptions& options) {
   if (options.out.empty() && !(options.csv.empty() && options.reference.empty()))
     throw BadInput("--csv and --reference are of the chart, which --output names");
   options.plan.execution = options.execution;
-  const Scene scene = read_scene(options.scene, options.overrides);
+  const Scene scene = read_input(options.scene, options.overrides);
   const bool show = !options.quiet && isatty(STDERR_FILENO) != 0;
   if (!options.out.empty()) draw_chart(options, scene, show);
   if (options.ablate) {

@@ -3,7 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <stdexcept>
+#include <string>
+
+#include "scene/scene.h"
 
 namespace glimt {
 
@@ -22,7 +26,11 @@ void add_merge_command(CLI::App& app, Run& run);
 void add_compare_command(CLI::App& app, Run& run);
 void add_chart_command(CLI::App& app, Run& run);
 void add_report_command(CLI::App& app, Run& run);
+void add_import_command(CLI::App& app, Run& run);
 void add_info_command(CLI::App& app, Run& run);
+
+/// Reads a scene file, or imports what is none and tells what has no counterpart.
+Scene read_input(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// Renders as `glimt render SCENE -o OUT` does.
 int render_scene(const std::filesystem::path& scene, const std::filesystem::path& out);

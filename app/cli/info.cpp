@@ -5,7 +5,6 @@
 #include "cli/commands.h"
 #include "compile/compiled_scene.h"
 #include "scene/fields.h"
-#include "scene/file/scene_file.h"
 
 namespace glimt {
 namespace fs = std::filesystem;
@@ -31,7 +30,7 @@ void add_lamps(const Scene& scene, const Objects& objects, const std::string& ki
 }
 
 int run_info(const fs::path& file) {
-  const Scene scene = read_scene(file);
+  const Scene scene = read_input(file);
   const CompiledScene compiled = compile(scene);
 
   std::size_t triangles = 0;

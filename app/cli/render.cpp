@@ -14,7 +14,6 @@
 #include "film/metadata.h"
 #include "film/statistics.h"
 #include "render/limits.h"
-#include "scene/file/scene_file.h"
 
 namespace glimt {
 namespace {
@@ -94,7 +93,7 @@ bool write_results(const RenderOptions& options, const Checkpoint& result) {
 }
 
 int run_render(const RenderOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
+  const Scene scene = read_input(options.scene, options.overrides);
   check_limits(options, scene.image);
   const CompiledScene compiled = compile(scene);
   for (const auto& warning : compiled.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());

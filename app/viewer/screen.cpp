@@ -98,7 +98,7 @@ void Screen::lay_out(const ViewerState& state, float scale, Edits& edits) {
   edits.room = room_of(layout, ratio);
   if (state.chart.view.shown) layout = with_chart(layout, size.width, size.height, scale);
   chart_ = layout.chart;
-  const Placement picture = place_image(size.width, size.height, layout.image, ratio, tool_.zoom());
+  const PicturePlace picture = place_image(size.width, size.height, layout.image, ratio, tool_.zoom());
   image_->draw(state.frame, state.display, layout.image, picture);
   compare_->draw(state, layout.image, picture);
   tool_.draw_outline(state, layout.image, picture);
@@ -251,7 +251,7 @@ void Screen::draw_hint(const ViewerState& state, const Rect& area) const {
   list.AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
-void Screen::draw_status(const ViewerState& state, const Rect& place, const Placement& picture) {
+void Screen::draw_status(const ViewerState& state, const Rect& place, const PicturePlace& picture) {
   begin_fixed_window("status", place, 12, 5, ImGuiWindowFlags_NoNav);
   std::string size;
   if (state.frame) {

@@ -45,7 +45,7 @@ class Screen {
   void carry_out(const ViewerState& state, Edits& edits);
   void go_to_worst_pixel(const ViewerState& state, Edits& edits);
   void draw_tabs(const ViewerState& state, Edits& edits);
-  void draw_status(const ViewerState& state, const Rect& place, const Placement& picture);
+  void draw_status(const ViewerState& state, const Rect& place, const PicturePlace& picture);
   void draw_hint(const ViewerState& state, const Rect& area) const;
   void set_scale(float scale, float ratio);
   void follow_gesture(Edits& edits);

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "import/import.h"
 #include "scene/file/scene_file.h"
 #include "viewer/keys.h"
 #include "viewer/screen.h"
@@ -147,14 +148,14 @@ void remember(const Window& window, const ViewerState& state) {
 }
 
 void run(const std::filesystem::path& scene_file) {
-  Scene scene = read_scene(scene_file);
+  ImportedScene opened = read_or_import(scene_file);
   std::string note;
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
   std::optional<ImageSize> room;
   if (settings.fits_window) room = room_in_window(settings.width, settings.height);
   Controller controller(
-      std::move(scene), scene_file, [] { glfwPostEmptyEvent(); }, {}, {}, room);
+      std::move(opened.scene), scene_file, [] { glfwPostEmptyEvent(); }, {}, {}, room);
   controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note, settings.drag_view);
   const Window window(settings.width, settings.height);
   Inbox in;

@@ -110,6 +110,24 @@ const std::array<Field<Sphere>, 2> sphere_table{{
      .required = true},
 }};
 
+const std::array<Field<Placement>, 3> placement_table{{
+    {.key = "scale",
+     .doc = "size over the file's, one number or three",
+     .member = value<&Placement::scale>(),
+     .min = -max_coordinate,
+     .max = max_coordinate},
+    {.key = "rotate",
+     .doc = "turn about x, then y, then z, degrees",
+     .member = value<&Placement::rotate>(),
+     .min = -max_coordinate,
+     .max = max_coordinate},
+    {.key = "translate",
+     .doc = "where the file's origin is, metres",
+     .member = value<&Placement::translate>(),
+     .min = -max_coordinate,
+     .max = max_coordinate},
+}};
+
 }  // namespace
 
 void set_method(Settings& settings, Method method) {
@@ -137,5 +155,6 @@ std::span<const Field<Settings>> settings_fields() { return settings_table; }
 std::span<const Field<Camera>> camera_fields() { return camera_table; }
 std::span<const Field<ImageSize>> image_fields() { return image_table; }
 std::span<const Field<Sphere>> sphere_fields() { return sphere_table; }
+std::span<const Field<Placement>> placement_fields() { return placement_table; }
 
 }  // namespace glimt

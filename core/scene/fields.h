@@ -106,6 +106,7 @@ std::span<const Field<Settings>> settings_fields();
 std::span<const Field<Camera>> camera_fields();
 std::span<const Field<ImageSize>> image_fields();
 std::span<const Field<Sphere>> sphere_fields();
+std::span<const Field<Placement>> placement_fields();
 
 /// All material types (core/material/list.cpp).
 std::span<const MaterialInfo> material_infos();

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mesh/place_mesh.h"
 #include "scene/material.h"
 #include "scene/settings.h"
 
@@ -51,11 +56,37 @@ struct Polygon {
   bool operator==(const Polygon&) const = default;
 };
 
+/// The file that a mesh's geometry comes from.
+struct MeshFile {
+  std::filesystem::path path;  ///< absolute
+  Placement placement;
+  std::map<std::string, std::string> materials{};  ///< the scene's by the file's
+  std::shared_ptr<const MeshData> data{};          ///< what the file holds; never null
+
+  bool operator==(const MeshFile& other) const {
+    return path == other.path && placement == other.placement && materials == other.materials &&
+           data->hash == other.data->hash;
+  }
+};
+
+/// Triangles in a row of one material.
+struct MeshPart {
+  std::string material;
+  int first = 0;
+  int count = 0;
+
+  bool operator==(const MeshPart&) const = default;
+};
+
 struct Mesh {
   std::string name;
   std::string material;
-  std::vector<glm::dvec3> vertices;
-  std::vector<std::array<int, 3>> triangles;  ///< indices into `vertices`, counter-clockwise from the front
+  std::vector<glm::dvec3> vertices{};
+  std::vector<std::array<int, 3>> triangles{};  ///< indices into `vertices`, counter-clockwise from the front
+  std::vector<glm::dvec3> normals{};            ///< one a vertex, of any length above 0, or none
+  bool smooth = false;                          ///< shaded with normals between those of its vertices
+  std::vector<MeshPart> parts{};                ///< of all triangles, where not all are of `material`; otherwise none
+  std::optional<MeshFile> file{};               ///< where the geometry comes from, which is placed in the world here
 
   bool operator==(const Mesh&) const = default;
 };

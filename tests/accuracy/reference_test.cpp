@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "film/image_file.h"
+#include "mesh_scenes.h"
 #include "pictures.h"
 #include "scene/file/scene_file.h"
 
@@ -63,7 +64,7 @@ Series as_mitsuba(Scene scene, int seeds, int samples) {
 // variance of the 5x5 blocks around holds where it is larger.
 TEST_P(Mitsuba, PictureIsTheSame) {
   const ReferencePicture reference = read_reference(GetParam().name);
-  const Scene scene = read_scene(GLIMT_SCENES "/" + GetParam().name + ".toml");
+  const Scene scene = reference_scene(GetParam().name);
   constexpr int seeds = 16;
   const int samples = GetParam().samples * effort / 8;
   const Series ours = render_series(scene, seeds, samples, block_size);
@@ -101,7 +102,7 @@ TEST_P(Mitsuba, PictureIsTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Mitsuba,
                          testing::Values(Case{"hexagon", 16}, Case{"hexagon_diffuse", 16}, Case{"hexagon_empty", 16},
-                                         Case{"glossy", 16}),
+                                         Case{"glossy", 16}, Case{"meshes", 16}),
                          [](const auto& scene) { return scene.param.name; });
 INSTANTIATE_TEST_SUITE_P(ScenesLong, Mitsuba, testing::Values(Case{"cornell", 64}),
                          [](const auto& scene) { return scene.param.name; });

@@ -93,6 +93,7 @@ TEST(Documents, EverySettingAndMaterialIsDescribed) {
   expect_fields(glimt::camera_fields());
   expect_fields(glimt::image_fields());
   expect_fields(glimt::sphere_fields());
+  expect_fields(glimt::placement_fields());
   for (const auto& material : glimt::material_infos()) {
     EXPECT_TRUE(names(text, material.name)) << material.name << " in docs/scene-files.md";
     expect_fields(material.fields);

@@ -1,7 +1,7 @@
-// Includes point one way: math <- scene <- material <- lamp <- compile <- kernel <- film <- render <- app. Only
-// core/math/lanes.h names xsimd. Core knows no window, no OpenGL and no command line. The maps in core/README.md and
-// app/README.md name every folder. No two headers give two types the same name. Only the list of materials includes a
-// material.
+// Includes point one way: math <- mesh <- scene <- import <- material <- lamp <- compile <- kernel <- film <- render <-
+// app. Only core/math/lanes.h names xsimd. Core knows no window, no OpenGL and no command line. The maps in
+// core/README.md and app/README.md name every folder. No two headers give two types the same name. Only the list of
+// materials includes a material.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 8> core_layers = {"math",    "scene",  "material", "lamp",
-                                                         "compile", "kernel", "film",     "render"};
+constexpr std::array<std::string_view, 10> core_layers = {"math", "mesh",    "scene",  "import", "material",
+                                                          "lamp", "compile", "kernel", "film",   "render"};
 
 const fs::path root = fs::path(GLIMT_TESTS_DIR).parent_path();
 

@@ -30,7 +30,7 @@ Rect visible(const Rect& picture, const Rect& area) {
           std::min(picture.y + picture.height, area.y + area.height) - y};
 }
 
-float line_of(const ViewerState& state, const Rect& seen, const Placement& picture) {
+float line_of(const ViewerState& state, const Rect& seen, const PicturePlace& picture) {
   return std::clamp(picture.rect.x + state.compare.line * picture.rect.width, seen.x, seen.x + seen.width);
 }
 
@@ -53,7 +53,7 @@ std::shared_ptr<const Frame> CompareLayer::compared(const std::shared_ptr<const 
   return result_ = std::move(result);
 }
 
-void CompareLayer::draw(const ViewerState& state, const Rect& area, const Placement& picture) {
+void CompareLayer::draw(const ViewerState& state, const Rect& area, const PicturePlace& picture) {
   const CompareView view = state.compare.view;
   if (view == CompareView::off || !state.frame) return;
   if (const std::string obstacle = obstacle_to_compare(state); !obstacle.empty()) {
@@ -84,7 +84,7 @@ void CompareLayer::draw(const ViewerState& state, const Rect& area, const Placem
   draw_label(what + ", B: " + b.label, seen.x + gap, top, false);
 }
 
-void CompareLayer::draw_line(const ViewerState& state, const Rect& area, const Placement& picture, Edits& edits) {
+void CompareLayer::draw_line(const ViewerState& state, const Rect& area, const PicturePlace& picture, Edits& edits) {
   if (state.compare.view != CompareView::split || !state.frame || !obstacle_to_compare(state).empty()) return;
   const Rect seen = visible(picture.rect, area);
   const float line = line_of(state, seen, picture), grip = style::scaled(6);

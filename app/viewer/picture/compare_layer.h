@@ -9,11 +9,11 @@ namespace glimt {
 /// Draws the comparison over the picture: B at one side of the split or alone, or how A and B differ.
 class CompareLayer {
  public:
-  void draw(const ViewerState& state, const Rect& area, const Placement& picture);
+  void draw(const ViewerState& state, const Rect& area, const PicturePlace& picture);
   /// As ImageView::prepare.
   bool prepare() { return image_.prepare(); }
   /// Draws the split's line, which can be dragged, above the picture and below all panels.
-  void draw_line(const ViewerState& state, const Rect& area, const Placement& picture, Edits& edits);
+  void draw_line(const ViewerState& state, const Rect& area, const PicturePlace& picture, Edits& edits);
 
  private:
   std::shared_ptr<const Frame> compared(const std::shared_ptr<const Frame>& a, const std::shared_ptr<const Frame>& b,

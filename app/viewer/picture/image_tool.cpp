@@ -23,7 +23,7 @@ constexpr float zoom_step = 1.25F;                   ///< factor of the picture'
 constexpr float least_zoom = 0.05F, most_zoom = 64;  ///< framebuffer pixels per picture pixel
 
 /// A point of the window in pixels of the image.
-glm::dvec2 image_place(const ViewerState& state, const Placement& place, const ImVec2& p) {
+glm::dvec2 image_place(const ViewerState& state, const PicturePlace& place, const ImVec2& p) {
   const Rect& r = place.rect;
   return {(p.x - r.x) / r.width * static_cast<float>(state.scene.image.width),
           (p.y - r.y) / r.height * static_cast<float>(state.scene.image.height)};
@@ -31,7 +31,7 @@ glm::dvec2 image_place(const ViewerState& state, const Placement& place, const I
 
 }  // namespace
 
-void ImageTool::take_mouse(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits) {
+void ImageTool::take_mouse(const ViewerState& state, const Rect& area, const PicturePlace& place, Edits& edits) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool free = !io.WantCaptureMouse && state.frame && is_inside(area, io.MousePos.x, io.MousePos.y);
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left),
@@ -97,7 +97,7 @@ void ImageTool::press(const ViewerState& state, const glm::dvec2& in_image) {
   grip_ = first ? view.eye + direction * first->distance : state.scene.camera.look_at;
 }
 
-void ImageTool::drag(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits) {
+void ImageTool::drag(const ViewerState& state, const Rect& area, const PicturePlace& place, Edits& edits) {
   const ImVec2 by = ImGui::GetIO().MouseDelta;
   const Camera& camera = state.scene.camera;
   if (drag_ == Drag::picture) {
@@ -131,7 +131,7 @@ void ImageTool::drag(const ViewerState& state, const Rect& area, const Placement
   }
 }
 
-void ImageTool::scroll(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits) {
+void ImageTool::scroll(const ViewerState& state, const Rect& area, const PicturePlace& place, Edits& edits) {
   const ImGuiIO& io = ImGui::GetIO();
   if (flying()) {
     pace_ = std::clamp(pace_ * std::pow(pace_step, static_cast<double>(io.MouseWheel)), least_pace, most_pace);
@@ -144,7 +144,7 @@ void ImageTool::scroll(const ViewerState& state, const Rect& area, const Placeme
   }
 }
 
-void ImageTool::draw_outline(const ViewerState& state, const Rect& area, const Placement& place) {
+void ImageTool::draw_outline(const ViewerState& state, const Rect& area, const PicturePlace& place) {
   if (!state.selected || !state.frame) return;
   if (outlined_ != state.selected || outlined_version_ != state.version) {
     outline_ = outline_of(state.scene, *state.selected);

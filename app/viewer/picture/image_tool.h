@@ -24,15 +24,15 @@ class ImageTool {
   double speed(const ViewerState& state) const;
 
   /// Handles the mouse for this picture of the window, unless a panel does.
-  void take_mouse(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits);
-  void draw_outline(const ViewerState& state, const Rect& area, const Placement& place);
+  void take_mouse(const ViewerState& state, const Rect& area, const PicturePlace& place, Edits& edits);
+  void draw_outline(const ViewerState& state, const Rect& area, const PicturePlace& place);
 
  private:
   enum class Drag { none, undecided, orbit, turn, pan, sphere, picture, fly };
 
   void press(const ViewerState& state, const glm::dvec2& in_image);
-  void drag(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits);
-  void scroll(const ViewerState& state, const Rect& area, const Placement& place, Edits& edits);
+  void drag(const ViewerState& state, const Rect& area, const PicturePlace& place, Edits& edits);
+  void scroll(const ViewerState& state, const Rect& area, const PicturePlace& place, Edits& edits);
   void fly(const ViewerState& state, Edits& edits) const;
   void begin(Drag drag);
 

@@ -42,7 +42,7 @@ bool ImageView::prepare() {
 }
 
 void ImageView::draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area,
-                     const Placement& place) {
+                     const PicturePlace& place) {
   if (!frame) return;
   if (frame != frame_ || display != display_) {
     if (auto image = shown_image(frame, display.view)) {

@@ -19,7 +19,7 @@ class ImageView {
   /// Adds the frame to what ImGui draws behind all panels, at `place`, clipped to `area`. A frame without the data for
   /// this view leaves the last picture there.
   void draw(const std::shared_ptr<const Frame>& frame, const Display& display, const Rect& area,
-            const Placement& place);
+            const PicturePlace& place);
   /// Makes the texture ready before ImGui paints. Returns true if its contents are new.
   bool prepare();
 

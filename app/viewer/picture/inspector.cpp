@@ -16,7 +16,7 @@ std::string three(const float* rgb) {
   return short_number(rgb[0]) + "  " + short_number(rgb[1]) + "  " + short_number(rgb[2]);
 }
 
-std::optional<Pixel> under_mouse(const ImageSize& size, const Rect& area, const Placement& picture) {
+std::optional<Pixel> under_mouse(const ImageSize& size, const Rect& area, const PicturePlace& picture) {
   const ImGuiIO& io = ImGui::GetIO();
   const Rect& r = picture.rect;
   if (io.WantCaptureMouse || !is_inside(area, io.MousePos.x, io.MousePos.y) ||
@@ -29,7 +29,7 @@ std::optional<Pixel> under_mouse(const ImageSize& size, const Rect& area, const 
 }
 
 /// A frame around the pixel.
-void draw_mark(const Pixel& pixel, const ImageSize& size, const Rect& area, const Placement& picture) {
+void draw_mark(const Pixel& pixel, const ImageSize& size, const Rect& area, const PicturePlace& picture) {
   const Rect& r = picture.rect;
   const float side = r.width / static_cast<float>(size.width);
   const float middle_x = r.x + (static_cast<float>(pixel.x) + 0.5F) * side,
@@ -65,7 +65,7 @@ std::vector<std::array<std::string, 2>> pixel_lines(const ViewerState& state, co
   return lines;
 }
 
-void Inspector::draw(const ViewerState& state, const Rect& area, const Placement& picture) const {
+void Inspector::draw(const ViewerState& state, const Rect& area, const PicturePlace& picture) const {
   if (!state.inspect || !state.frame) return;
   const ImageSize& size = state.frame->size;
   const auto pixel = under_mouse(size, area, picture);

@@ -15,7 +15,7 @@ namespace glimt {
 class Inspector {
  public:
   void mark(const std::optional<Pixel>& pixel) { marked_ = pixel; }
-  void draw(const ViewerState& state, const Rect& area, const Placement& picture) const;
+  void draw(const ViewerState& state, const Rect& area, const PicturePlace& picture) const;
 
  private:
   std::optional<Pixel> marked_;

@@ -9,6 +9,7 @@
 
 #include "film/file_bytes.h"
 #include "film/image_file.h"
+#include "import/import.h"
 #include "scene/file/scene_file.h"
 #include "scene/surroundings.h"
 #include "viewer/chart_view/chart_export.h"
@@ -19,6 +20,14 @@ namespace {
 
 /// How many posted scenes are kept until a frame shows one of them. The worker skips to the newest within a few.
 constexpr std::size_t max_posted = 64;
+
+/// Of what has no counterpart.
+std::string told_of(const std::vector<ImportNote>& notes) {
+  if (notes.empty()) return {};
+  std::string text = ". " + text_of(notes.front());
+  if (notes.size() > 1) text += "; and " + std::to_string(notes.size() - 1) + " more, which glimt import lists";
+  return text;
+}
 
 bool is_picture(const fs::path& file) { return file.extension() == ".png" || file.extension() == ".exr"; }
 
@@ -201,7 +210,7 @@ void Controller::show(const Document& document, std::uint64_t gesture) {
 void Controller::set_file(fs::path file) {
   stem_ = stem_of(file);
   if (file.has_parent_path()) state_.folder = file.parent_path();
-  if (is_picture(file)) file.clear();
+  if (is_picture(file) || is_importable(file)) file.clear();
   watch_.watch(file);
   state_.file = std::move(file);
 }
@@ -221,12 +230,13 @@ void Controller::open(const fs::path& file) {
 }
 
 void Controller::open_scene(const fs::path& file) {
-  Scene scene = read_scene(file);
+  ImportedScene opened = read_or_import(file);
+  Scene& scene = opened.scene;
   const RenderGoal goal = goal_for(scene, state_.goal);
   state_.opened_size = scene.image;
   edit({std::make_shared<const Scene>(std::move(scene)), state_.file, goal});
   set_file(file);
-  state_.message = {"Opened " + file.filename().string()};
+  state_.message = {"Opened " + file.filename().string() + told_of(opened.notes)};
 }
 
 void Controller::open_picture(const fs::path& file) {
@@ -249,7 +259,7 @@ void Controller::open_picture(const fs::path& file) {
 
 void Controller::save(const fs::path& file) {
   try {
-    replace_file(file, write_scene(*state_.filed));
+    replace_file(file, write_scene(*state_.filed, fs::absolute(file).parent_path()));
     set_file(file);
     state_.message = {"Saved " + file.filename().string()};
   } catch (const std::exception& error) {

@@ -92,6 +92,11 @@ void scale(Scene& scene, const ObjectId& object, double factor) {
   const Box box = box_of(vertices);
   const dvec3 middle = 0.5 * (box.low + box.high);
   for (dvec3& v : vertices) v = middle + (v - middle) * factor;
+  if (object.kind == ObjectKind::mesh && scene.meshes[object.index].file) {
+    Placement& placement = scene.meshes[object.index].file->placement;
+    placement.scale *= factor;
+    placement.translate = middle + (placement.translate - middle) * factor;
+  }
 }
 
 }  // namespace glimt

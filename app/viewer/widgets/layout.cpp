@@ -33,9 +33,9 @@ bool is_inside(const Rect& rect, float x, float y) {
   return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
 }
 
-Placement place_image(int image_width, int image_height, const Rect& area, float ratio) {
+PicturePlace place_image(int image_width, int image_height, const Rect& area, float ratio) {
   const auto w = static_cast<float>(image_width), h = static_cast<float>(image_height);
-  Placement place;
+  PicturePlace place;
   place.zoom = std::min(area.width * ratio / w, area.height * ratio / h);
   const float whole = std::floor(place.zoom);
   if (whole >= 1 && whole > 0.9F * place.zoom) place.zoom = whole;
@@ -64,9 +64,9 @@ Zoom looking_at(const Rect& picture, const Rect& area, float zoom) {
 
 }  // namespace
 
-Placement place_image(int image_width, int image_height, const Rect& area, float ratio, const Zoom& zoom) {
+PicturePlace place_image(int image_width, int image_height, const Rect& area, float ratio, const Zoom& zoom) {
   if (zoom.zoom == 0) return place_image(image_width, image_height, area, ratio);
-  Placement place;
+  PicturePlace place;
   place.zoom = zoom.zoom;
   place.whole = place.zoom == std::floor(place.zoom);
   place.rect.width = static_cast<float>(image_width) * place.zoom / ratio;
@@ -77,7 +77,7 @@ Placement place_image(int image_width, int image_height, const Rect& area, float
   return place;
 }
 
-Zoom zoomed(const Placement& place, const Rect& area, float zoom, float x, float y) {
+Zoom zoomed(const PicturePlace& place, const Rect& area, float zoom, float x, float y) {
   const float factor = zoom / place.zoom;
   Rect picture = place.rect;
   picture.x = x + (picture.x - x) * factor;
@@ -87,7 +87,7 @@ Zoom zoomed(const Placement& place, const Rect& area, float zoom, float x, float
   return looking_at(picture, area, zoom);
 }
 
-Zoom moved(const Placement& place, const Rect& area, float dx, float dy) {
+Zoom moved(const PicturePlace& place, const Rect& area, float dx, float dy) {
   Rect picture = place.rect;
   picture.x += dx;
   picture.y += dy;

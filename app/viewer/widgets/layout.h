@@ -24,7 +24,7 @@ Layout with_chart(const Layout& layout, int image_width, int image_height, float
 bool is_inside(const Rect& rect, float x, float y);
 
 /// Where a picture is drawn.
-struct Placement {
+struct PicturePlace {
   Rect rect;
   float zoom = 1;      ///< framebuffer pixels per picture pixel
   bool whole = false;  ///< the zoom is a whole number
@@ -32,7 +32,7 @@ struct Placement {
 
 /// Places the picture as large as fits, centred, with its corner on a whole framebuffer pixel. The zoom is rounded down
 /// to a whole number where that costs less than a tenth. `ratio` is framebuffer pixels per window coordinate.
-Placement place_image(int image_width, int image_height, const Rect& area, float ratio);
+PicturePlace place_image(int image_width, int image_height, const Rect& area, float ratio);
 
 /// The magnification, and which place of the picture is in the middle.
 struct Zoom {
@@ -41,11 +41,11 @@ struct Zoom {
 };
 
 /// Places the picture as `zoom` asks, but moved so that it leaves no space empty which it could fill.
-Placement place_image(int image_width, int image_height, const Rect& area, float ratio, const Zoom& zoom);
+PicturePlace place_image(int image_width, int image_height, const Rect& area, float ratio, const Zoom& zoom);
 
 /// Another magnification; the place of the picture under the window point (x, y) stays there.
-Zoom zoomed(const Placement& place, const Rect& area, float zoom, float x, float y);
+Zoom zoomed(const PicturePlace& place, const Rect& area, float zoom, float x, float y);
 /// The picture moved by (dx, dy), window coordinates.
-Zoom moved(const Placement& place, const Rect& area, float dx, float dy);
+Zoom moved(const PicturePlace& place, const Rect& area, float dx, float dy);
 
 }  // namespace glimt

@@ -67,6 +67,10 @@ std::string first_change(const Scene& is, const Scene& should_be) {
   Scene a = is, b = should_be;
   a.render = without_target(a.render);
   b.render = without_target(b.render);
+  // What a mesh file holds is compared, not where it lies.
+  for (Scene* scene : {&a, &b})
+    for (Mesh& mesh : scene->meshes)
+      if (mesh.file) mesh.file->path = mesh.file->path.filename();
   if (write_scene(a) == write_scene(b)) return {};
   const auto size = [](const ImageSize& image) {
     return std::to_string(image.width) + "x" + std::to_string(image.height);

@@ -21,11 +21,13 @@ struct SceneError : std::runtime_error {
 /// place from 0); bare words count as strings. Throws SceneError.
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// The same from text; `file_name` is for messages.
+/// The same from text; `file_name` is for messages, and its folder for mesh files.
 Scene parse_scene(std::string_view text, std::string_view file_name, std::span<const std::string> overrides = {});
 
 /// The scene as TOML that parse_scene reads back to an equal Scene, all numbers exact: so for every scene that was
-/// read. Parameters that a material's type does not read are not written, and have their defaults when read back.
-std::string write_scene(const Scene& scene);
+/// read. Mesh files are named relative to `folder`. Without one the text is a record of what was rendered: it has their
+/// whole paths, and reading it back refuses a file that holds another mesh by then. Parameters that a material's type
+/// does not read are not written, and have their defaults when read back.
+std::string write_scene(const Scene& scene, const std::filesystem::path& folder = {});
 
 }  // namespace glimt

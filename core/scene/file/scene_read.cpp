@@ -4,11 +4,11 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <system_error>
 
 #include "scene/fields.h"
+#include "scene/file/mesh_read.h"
 #include "scene/file/overrides.h"
 #include "scene/file/scene_file.h"
 #include "scene/file/text.h"
@@ -117,28 +117,13 @@ void read_objects(const toml::table& root, const std::string& kind, const Keys& 
   }
 }
 
-template <class T>
-void read_vertices(const toml::table& table, const std::string& where, T& object) {
+void read_polygon(const toml::table& table, const std::string& where, Polygon& polygon) {
   for (const toml::node& vertex : as_array(required(table, where, "vertices"), "vertices", "[x, y, z]"))
-    object.vertices.push_back(as_vector(vertex, "vertices[" + std::to_string(object.vertices.size()) + "]"));
+    polygon.vertices.push_back(as_vector(vertex, "vertices[" + std::to_string(polygon.vertices.size()) + "]"));
 }
 
-void read_triangles(const toml::table& table, const std::string& where, Mesh& mesh) {
-  using Limits = std::numeric_limits<int>;
-  for (const toml::node& node : as_array(required(table, where, "triangles"), "triangles", "[i, j, k]")) {
-    const std::string key = "triangles[" + std::to_string(mesh.triangles.size()) + "]";
-    const toml::array& indices = as_array(node, key, "3 vertex indices");
-    if (indices.size() != 3)
-      fail(node.source(),
-           key + ": expected an array of 3 vertex indices, found " + std::to_string(indices.size()) + " elements");
-    std::array<int, 3> triangle{};
-    for (std::size_t k = 0; k < 3; ++k)
-      triangle[k] = as_integer(indices[k], key + "[" + std::to_string(k) + "]", Limits::min(), Limits::max());
-    mesh.triangles.push_back(triangle);
-  }
-}
-
-Scene read_tree(const toml::table& root) {
+/// Mesh files are named relative to `folder`.
+Scene read_tree(const toml::table& root, const std::filesystem::path& folder) {
   Scene scene;
   const Keys known{"name", "camera", "image", "render", "material", "sphere", "polygon", "mesh"};
   check_known(root, "the scene", known);
@@ -153,12 +138,11 @@ Scene read_tree(const toml::table& root) {
                [](const toml::table& table, const std::string& where, Sphere& sphere) {
                  read_fields(table, where, sphere_fields(), sphere);
                });
-  read_objects(root, "polygon", {"vertices"}, scene.polygons, read_vertices<Polygon>);
-  read_objects(root, "mesh", {"vertices", "triangles"}, scene.meshes,
-               [](const toml::table& table, const std::string& where, Mesh& mesh) {
-                 read_vertices(table, where, mesh);
-                 read_triangles(table, where, mesh);
-               });
+  read_objects(root, "polygon", {"vertices"}, scene.polygons, read_polygon);
+  const auto keys = mesh_keys();
+  read_objects(
+      root, "mesh", Keys(keys.begin(), keys.end()), scene.meshes,
+      [&](const toml::table& table, const std::string&, Mesh& mesh) { read_mesh(table, folder, scene, mesh); });
   return scene;
 }
 
@@ -210,7 +194,7 @@ Scene parse_scene(std::string_view text, std::string_view file_name, std::span<c
     fail(error.source(), std::string(error.description()) + "; allowed is TOML (https://toml.io)");
   }
   for (const std::string& text_of_override : overrides) apply_override(root, text_of_override);
-  Scene scene = read_tree(root);
+  Scene scene = read_tree(root, std::filesystem::path(file_name).parent_path());
   const std::vector<Problem> problems = validate(scene);
   if (!problems.empty()) fail_rule(problems.front(), root, text, file_name, overrides);
   return scene;

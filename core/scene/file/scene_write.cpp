@@ -1,4 +1,5 @@
 #include "scene/fields.h"
+#include "scene/file/mesh_hash.h"
 #include "scene/file/scene_file.h"
 #include "scene/file/text.h"
 
@@ -45,9 +46,31 @@ std::string triangle_text(const std::array<int, 3>& t) {
 
 std::string name_line(const std::string& name) { return name.empty() ? "" : line("name", toml_string(name)); }
 
+std::string file_lines(const MeshFile& file, const std::filesystem::path& folder) {
+  const Placement& placement = file.placement;
+  const bool is_record = folder.empty();
+  const std::filesystem::path path =
+      is_record ? file.path : file.path.lexically_proximate(std::filesystem::absolute(folder).lexically_normal());
+  std::string text = line("file", toml_string(path.generic_string()));
+  if (is_record) text += line("hash", toml_string(hash_text(*file.data)));
+  const glm::dvec3& scale = placement.scale;
+  if (scale.x == scale.y && scale.x == scale.z) {
+    if (scale.x != 1) text += line("scale", number_text(scale.x));
+  } else {
+    text += line("scale", vector_text(scale));
+  }
+  if (placement.rotate != glm::dvec3{0}) text += line("rotate", vector_text(placement.rotate));
+  if (placement.translate != glm::dvec3{0}) text += line("translate", vector_text(placement.translate));
+  std::string names;
+  for (const auto& [name, material] : file.materials)
+    names += (names.empty() ? "" : ", ") + key_text(name) + " = " + toml_string(material);
+  if (!names.empty()) text += line("materials", "{" + names + "}");
+  return text;
+}
+
 }  // namespace
 
-std::string write_scene(const Scene& scene) {
+std::string write_scene(const Scene& scene, const std::filesystem::path& folder) {
   std::string text = name_line(scene.name);
   const auto section = [&](const std::string& header) { text += (text.empty() ? "" : "\n") + header + "\n"; };
 
@@ -79,9 +102,13 @@ std::string write_scene(const Scene& scene) {
   }
   for (const Mesh& mesh : scene.meshes) {
     section("[[mesh]]");
-    text += name_line(mesh.name) + line("material", toml_string(mesh.material)) +
-            line("vertices", array_text(mesh.vertices, vector_text)) +
-            line("triangles", array_text(mesh.triangles, triangle_text));
+    text += name_line(mesh.name) + line("material", toml_string(mesh.material));
+    if (mesh.file)
+      text += file_lines(*mesh.file, folder);
+    else
+      text += line("vertices", array_text(mesh.vertices, vector_text)) +
+              line("triangles", array_text(mesh.triangles, triangle_text));
+    if (mesh.smooth) text += line("smooth", "true");
   }
   return text;
 }

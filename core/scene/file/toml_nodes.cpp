@@ -63,6 +63,12 @@ std::string as_string(const toml::node& node, const std::string& key) {
   return value->get();
 }
 
+bool as_boolean(const toml::node& node, const std::string& key) {
+  const auto* value = node.as_boolean();
+  if (!value) wrong_type(node, key, "true or false");
+  return value->get();
+}
+
 double as_number(const toml::node& node, const std::string& key) {
   if (!node.is_number()) wrong_type(node, key, "a number");
   return node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();

@@ -23,6 +23,7 @@ bool is_override(const toml::source_region& place);
 const toml::table& as_table(const toml::node& node, const std::string& key);
 const toml::array& as_array(const toml::node& node, const std::string& key, std::string_view of);
 std::string as_string(const toml::node& node, const std::string& key);
+bool as_boolean(const toml::node& node, const std::string& key);
 double as_number(const toml::node& node, const std::string& key);
 /// Within [min, max].
 int as_integer(const toml::node& node, const std::string& key, int min, int max);

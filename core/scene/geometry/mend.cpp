@@ -7,12 +7,14 @@
 #include <deque>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <set>
 #include <unordered_map>
 
 #include "scene/file/text.h"
 #include "scene/geometry/convex_pieces.h"
 #include "scene/geometry/mesh_measures.h"
+#include "scene/geometry/mesh_parts.h"
 
 namespace glimt {
 namespace {
@@ -178,6 +180,24 @@ void mend(Mesh& mesh, std::size_t index, Tallies& tallies) {
   drop_unused_vertices(mesh);
 }
 
+/// Each keeps its place for its first material; those of the others come behind.
+void split_by_material(std::vector<Mesh>& meshes) {
+  for (std::size_t i = 0, count = meshes.size(); i < count; ++i) {
+    if (meshes[i].parts.empty()) continue;
+    std::vector<Mesh> parts = by_material(meshes[i]);
+    meshes[i] = std::move(parts.front());
+    std::move(parts.begin() + 1, parts.end(), std::back_inserter(meshes));
+  }
+}
+
+/// What was left out when files were read, once for each file.
+void tell_of_files(const Scene& scene, std::vector<std::string>& told) {
+  std::set<const MeshData*> done;
+  for (const Mesh& mesh : scene.meshes)
+    if (mesh.file && done.insert(mesh.file->data.get()).second)
+      told.insert(told.end(), mesh.file->data->told.begin(), mesh.file->data->told.end());
+}
+
 }  // namespace
 
 bool has_no_area(const dvec3& a, const dvec3& b, const dvec3& c) {
@@ -196,7 +216,8 @@ Mended mend(const Scene& scene) {
     tallies.left_out.add(static_cast<std::size_t>(cut.left_out), place_in("polygon", polygon.name, i));
     for (auto& piece : cut.pieces) mended.scene.polygons.push_back({polygon.name, polygon.material, std::move(piece)});
   }
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) mend(mended.scene.meshes[i], i, tallies);
+  split_by_material(mended.scene.meshes);
+  for (std::size_t i = 0; i < mended.scene.meshes.size(); ++i) mend(mended.scene.meshes[i], i, tallies);
   tallies.polygons.tell(mended.told, "polygon is not flat or not convex and is cut into pieces",
                         "polygons are not flat or not convex and are cut into pieces");
   tallies.left_out.tell(mended.told, "vertex of a polygon adds no area to it and is left out",
@@ -206,6 +227,7 @@ Mended mend(const Scene& scene) {
                      "triangles of meshes are there more than once and are left out");
   tallies.welded.tell(mended.told, "vertex of a mesh coincides with another and is welded to it",
                       "vertices of meshes coincide with others and are welded to them");
+  tell_of_files(scene, mended.told);
   return mended;
 }
 

@@ -10,7 +10,8 @@
 namespace glimt {
 
 struct Mended {
-  /// Spheres and meshes are at their places; a polygon in pieces is several of its name.
+  /// Spheres and meshes are at their places; a polygon in pieces is several of its name. A mesh of several materials is
+  /// several of its name, which but for the first come last.
   Scene scene;
   std::vector<std::string> told;  ///< what was mended, for people: a kind each, with its count and its first place
 };

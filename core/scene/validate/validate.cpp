@@ -54,6 +54,29 @@ bool check_fields(std::span<const Field<T>> fields, const T& object, const std::
   return problems.size() == before;
 }
 
+std::string no_such_material(const Scene& scene, const std::string& who, const std::string& name) {
+  std::vector<std::string_view> materials;
+  for (const Material& material : scene.materials) materials.push_back(material.name);
+  return who + ": there is no material " + toml_string(name) +
+         (materials.empty()
+              ? "; the scene has none, and a table [material.NAME] makes one"
+              : "; the nearest is " + toml_string(nearest(name, materials)) + " (allowed: " + joined(materials) + ")");
+}
+
+/// How a mesh from a file is placed, and the materials of its parts.
+void check_mesh_file(const Scene& scene, std::size_t index, Problems& problems) {
+  const Mesh& mesh = scene.meshes[index];
+  if (!mesh.file) return;
+  const std::string path = element("mesh", index), who = called("mesh", mesh.name, index);
+  check_fields(placement_fields(), mesh.file->placement, path, who, problems);
+  const glm::dvec3& scale = mesh.file->placement.scale;
+  if (scale.x == 0 || scale.y == 0 || scale.z == 0)
+    problems.push_back({path + ".scale", who + ": scale has a 0; allowed is any other number"});
+  for (const auto& [name, material] : mesh.file->materials)
+    if (!find_material(scene, material))
+      problems.push_back({path + ".materials." + key_text(name), no_such_material(scene, who, material)});
+}
+
 void check_camera(const Camera& camera, Problems& problems) {
   if (!check_fields(camera_fields(), camera, "camera", "camera", problems)) return;
   const glm::dvec3 view = camera.look_at - camera.eye;
@@ -95,8 +118,6 @@ void check_materials(const std::vector<Material>& materials, Problems& problems)
 /// Names and materials of the objects of one kind.
 template <class T>
 void check_objects(const Scene& scene, std::string_view kind, const std::vector<T>& objects, Problems& problems) {
-  std::vector<std::string_view> materials;
-  for (const Material& material : scene.materials) materials.push_back(material.name);
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const T& object = objects[i];
@@ -105,11 +126,7 @@ void check_objects(const Scene& scene, std::string_view kind, const std::vector<
       problems.push_back({path + ".name", who + ": the name is taken; allowed is one that no other " +
                                               std::string(kind) + " has, or none"});
     if (find_material(scene, object.material)) continue;
-    std::string message = who + ": there is no material " + toml_string(object.material);
-    message += materials.empty() ? "; the scene has none, and a table [material.NAME] makes one"
-                                 : "; the nearest is " + toml_string(nearest(object.material, materials)) +
-                                       " (allowed: " + joined(materials) + ")";
-    problems.push_back({path + ".material", message});
+    problems.push_back({path + ".material", no_such_material(scene, who, object.material)});
   }
 }
 
@@ -142,6 +159,7 @@ std::vector<Problem> validate(const Scene& scene) {
     check_fields(sphere_fields(), scene.spheres[i], element("sphere", i), called("sphere", scene.spheres[i].name, i),
                  problems);
   for (std::size_t i = 0; i < scene.polygons.size(); ++i) check_polygon(scene.polygons[i], i, problems);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) check_mesh_file(scene, i, problems);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], i, problems);
   if (scene.spheres.empty() && scene.polygons.empty() && scene.meshes.empty())
     problems.push_back({"", "the scene holds nothing; it takes at least one [[sphere]], [[polygon]] or [[mesh]]"});

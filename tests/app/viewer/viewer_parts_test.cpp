@@ -287,29 +287,29 @@ TEST_F(SettingsFile, WatchTellsOfAChangeOnce) {
 
 TEST(Layout, MagnifiedPicturesKeepThePointUnderTheMouse) {
   const Rect area{0, 0, 960, 800};
-  const Placement fitted = place_image(400, 400, area, 1);
+  const PicturePlace fitted = place_image(400, 400, area, 1);
   const Zoom zoom = zoomed(fitted, area, 5, 300, 250);
-  const Placement place = place_image(400, 400, area, 1, zoom);
+  const PicturePlace place = place_image(400, 400, area, 1, zoom);
   EXPECT_EQ(place.zoom, 5);
-  const auto share = [](const Placement& p, float x) { return (x - p.rect.x) / p.rect.width; };
+  const auto share = [](const PicturePlace& p, float x) { return (x - p.rect.x) / p.rect.width; };
   EXPECT_NEAR(share(place, 300), share(fitted, 300), 1e-3);
-  const Placement far = place_image(400, 400, area, 1, moved(place, area, 1e6F, -1e6F));
+  const PicturePlace far = place_image(400, 400, area, 1, moved(place, area, 1e6F, -1e6F));
   EXPECT_EQ(far.rect.x, 0) << "no empty space at the side";
   EXPECT_EQ(far.rect.y + far.rect.height, 800);
-  const Placement small = place_image(400, 400, area, 1, {.zoom = 1});
+  const PicturePlace small = place_image(400, 400, area, 1, {.zoom = 1});
   EXPECT_EQ(small.rect.x, 280) << "in the middle where it fits";
   EXPECT_EQ(place_image(400, 400, area, 1, {}).zoom, 2) << "0 is fitted";
 }
 
 TEST(Layout, PicturesAreMagnifiedByWholeNumbersWhereThatCostsLittle) {
-  const Placement doubled = place_image(400, 400, {0, 0, 960, 800}, 1);
+  const PicturePlace doubled = place_image(400, 400, {0, 0, 960, 800}, 1);
   EXPECT_EQ(doubled.zoom, 2);
   EXPECT_TRUE(doubled.whole);
   EXPECT_EQ(doubled.rect.x, 80);
-  const Placement uneven = place_image(400, 400, {0, 0, 600, 600}, 1);  // 1 instead of 1.5 would cost a third
+  const PicturePlace uneven = place_image(400, 400, {0, 0, 600, 600}, 1);  // 1 instead of 1.5 would cost a third
   EXPECT_EQ(uneven.zoom, 1.5F);
   EXPECT_FALSE(uneven.whole);
-  const Placement shrunk = place_image(1920, 1080, {0, 0, 960, 800}, 1);
+  const PicturePlace shrunk = place_image(1920, 1080, {0, 0, 960, 800}, 1);
   EXPECT_EQ(shrunk.zoom, 0.5F);
   EXPECT_FALSE(shrunk.whole);
   EXPECT_EQ(place_image(400, 400, {0, 0, 400, 400}, 2).zoom, 2) << "framebuffer pixels count";
