@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
+#include <glm/geometric.hpp>
 
 #include "import/import.h"
 #include "mesh_scenes.h"
