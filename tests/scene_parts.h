@@ -65,9 +65,9 @@ inline Mesh box_mesh(const dvec3& low, const dvec3& high, const std::string& mat
   Mesh mesh{.name = "box", .material = material, .vertices = {}, .triangles = {}};
   for (const Polygon& wall : box(low, high, material)) {
     const int first = static_cast<int>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), wall.vertices.begin(), wall.vertices.end());
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.triangles.push_back({first, first + 2, first + 3});
+    mesh.vertices.edit().insert(mesh.vertices.end(), wall.vertices.begin(), wall.vertices.end());
+    mesh.triangles.edit().push_back({first, first + 1, first + 2});
+    mesh.triangles.edit().push_back({first, first + 2, first + 3});
   }
   // Triangles share corners, so the mesh is closed.
   std::vector<dvec3> corners;
@@ -77,7 +77,7 @@ inline Mesh box_mesh(const dvec3& low, const dvec3& high, const std::string& mat
     if (at == corners.end()) at = corners.insert(corners.end(), v);
     corner_of.push_back(static_cast<int>(at - corners.begin()));
   }
-  for (auto& t : mesh.triangles) {
+  for (auto& t : mesh.triangles.edit()) {
     for (int& i : t) i = corner_of[static_cast<std::size_t>(i)];
     if (!fronts_inwards) std::swap(t[0], t[1]);
   }
@@ -98,9 +98,9 @@ inline Mesh tetrahedron(std::string name, std::string material, const dvec3& cen
 /// A tetrahedron with one side pushed in: closed and not convex, fronts outwards.
 inline Mesh dented(std::string name, std::string material, const dvec3& centre, double size) {
   Mesh mesh = tetrahedron(std::move(name), std::move(material), centre, size);
-  mesh.vertices.push_back(centre);  // inside side (1, 2, 3)
-  mesh.triangles.pop_back();
-  for (const auto& t : {std::array{1, 2, 4}, {2, 3, 4}, {3, 1, 4}}) mesh.triangles.push_back(t);
+  mesh.vertices.edit().push_back(centre);  // inside side (1, 2, 3)
+  mesh.triangles.edit().pop_back();
+  for (const auto& t : {std::array{1, 2, 4}, {2, 3, 4}, {3, 1, 4}}) mesh.triangles.edit().push_back(t);
   return mesh;
 }
 

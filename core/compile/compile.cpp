@@ -11,7 +11,9 @@
 #include "compile/lowering.h"
 #include "material/lobes.h"
 #include "scene/file/scene_file.h"
+#include "scene/file/text.h"
 #include "scene/geometry/mend.h"
+#include "scene/geometry/mesh_measures.h"
 #include "scene/validate/validate.h"
 
 namespace glimt {
@@ -52,7 +54,7 @@ dvec3 centre_of(const Reach& reach) {
   for (const RoomFace& face : reach.room) std::for_each(face.outline.begin(), face.outline.end(), include);
   if (reach.room.empty()) {
     for (const Polygon* p : reach.polygons) std::for_each(p->vertices.begin(), p->vertices.end(), include);
-    for (const Mesh& m : reach.meshes) std::for_each(m.vertices.begin(), m.vertices.end(), include);
+    for (const Mesh& m : reach.meshes) include(box_of(m).low), include(box_of(m).high);
     for (const Sphere* s : reach.spheres) {
       include(s->center - s->radius);
       include(s->center + s->radius);
@@ -78,7 +80,7 @@ void lower_room(Lowering& l) {
     const int surface = l.add_surface({&material, front});
     const std::vector<dvec3> outline = moved(face.outline, l.origin);
     add_object(l, material, bounding_sphere(outline), surface, surface);
-    if (face.front) add_flat_lamp(l, outline, front, material, surface, surface);
+    if (face.front) add_flat_lamp(l, outline, front, material, surface, surface, surface);
     return surface;
   };
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -107,13 +109,17 @@ void lower_room(Lowering& l) {
                                 std::to_string(l.out.room.size()) + " pairs of planes");
 }
 
-void lower_polygon(Lowering& l, const Polygon& polygon) {
+void lower_polygon(Lowering& l, const Polygon& polygon, bool into_tree) {
   const std::vector<dvec3> v = moved(polygon.vertices, l.origin);
   const auto [n, d] = plane_of(v);
   const Material& material = l.material(polygon.material);
   const int surface = l.add_surface({&material, n});
-  add_flat_lamp(l, v, n, material, surface, surface);
+  add_flat_lamp(l, v, n, material, surface, surface, surface);
   add_object(l, material, bounding_sphere(v), surface, surface);
+  if (into_tree && !is_lamp(material)) {
+    add_to_tree(l, polygon, surface);
+    return;
+  }
   const auto f = to_floats(n);
   const int first_bound = static_cast<int>(l.out.polygon_bounds.size());
   auto bound = [&](const dvec3& b, double lo, double hi) {
@@ -176,6 +182,13 @@ void fill_surfaces(Lowering& l) {
   l.out.has_glass = (l.out.lobes & transmitting_lobes) != 0;
 }
 
+/// "249,000"
+std::string grouped(std::size_t n) {
+  std::string text = std::to_string(n);
+  for (std::size_t place = text.size(); place > 3; place -= 3) text.insert(place - 3, ",");
+  return text;
+}
+
 /// What the kernel does and leaves out in this scene, in words.
 void describe(Lowering& l) {
   CompiledScene& out = l.out;
@@ -186,6 +199,9 @@ void describe(Lowering& l) {
   count(out.shells.size(), "sphere around the camera", "spheres around the camera");
   count(out.glass_spheres.size(), "glass sphere", "glass spheres");
   count(out.polygons.size(), "polygon", "polygons");
+  if (out.tree)
+    out.compiled_in.push_back("a tree of " + grouped(out.tree->triangles) + " triangles, " +
+                              number_text(std::round(static_cast<double>(out.tree->bytes()) / 1e5) / 10) + " MB");
   count(out.chain_spheres.size(), "sphere that caustics are connected over",
         "spheres that caustics are connected over");
   count(static_cast<std::size_t>(out.lamps.rows()), "piece of a lamp", "pieces of lamps");
@@ -200,7 +216,7 @@ void describe(Lowering& l) {
 
 }  // namespace
 
-CompiledScene compile(const Scene& as_edited) {
+CompiledScene compile(const Scene& as_edited, std::size_t most_listed) {
   if (const std::vector<Problem> problems = validate(as_edited); !problems.empty())
     throw SceneError(problems.front().path + ": " + problems.front().message);
   // What is rendered is in places not what was edited.
@@ -209,7 +225,7 @@ CompiledScene compile(const Scene& as_edited) {
   move_eye_off_surfaces(scene, warnings);
   Reach reach = find_reach(scene);
   if (separate_coincident(scene, reach, notes)) gather_objects(scene, reach);
-  Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}, {}};
+  Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}, {}, {}};
   l.origin = centre_of(l.reach);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;
@@ -226,8 +242,9 @@ CompiledScene compile(const Scene& as_edited) {
   l.out.warnings.insert(l.out.warnings.end(), l.reach.warnings.begin(), l.reach.warnings.end());
   lower_room(l);
   l.out.room_surfaces = static_cast<int>(l.surfaces.size());
-  for (const Polygon* p : l.reach.polygons) lower_polygon(l, *p);
-  lower_meshes(l);
+  const TreePlan plan = plan_tree(l, most_listed);
+  for (const Polygon* p : l.reach.polygons) lower_polygon(l, *p, plan.polygons);
+  lower_meshes(l, plan);
   for (const Sphere* s : l.reach.spheres) lower_sphere(l, *s);
   fill_surfaces(l);
   lower_lamps(l);

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <bit>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "compile/lowering.h"
 #include "material/lobes.h"
+#include "scene/geometry/mesh_measures.h"
 
 namespace glimt {
 
@@ -27,11 +29,12 @@ bool is_empty(const Lowering& l, const Sphere& ball) {
   }
   for (const Polygon* p : l.reach.polygons)
     if (!away(p->vertices)) return false;
-  for (const Mesh& m : l.reach.meshes)
-    for (const auto& t : m.triangles) {
-      const auto vertex = [&](int k) { return m.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])]; };
-      if (!away({vertex(0), vertex(1), vertex(2)})) return false;
-    }
+  for (const Mesh& m : l.reach.meshes) {
+    const Box box = box_of(m);
+    if (length(max(max(box.low - ball.center, ball.center - box.high), dvec3{0})) >= ball.radius) continue;
+    for (const auto& t : m.triangles)
+      if (!away(triangle_vertices(m, t))) return false;
+  }
   return true;
 }
 

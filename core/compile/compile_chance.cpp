@@ -59,7 +59,7 @@ void lower_chance(Lowering& l) {
   std::vector<std::int32_t> row_of(static_cast<std::size_t>(out.surfaces.rows()), -1);
   for (const Emitting& object : l.emitting) {
     const auto is_its_own = [&](const LampPiece& piece) {
-      return object.first_surface <= piece.first_surface && piece.last_surface <= object.last_surface;
+      return object.first_surface <= piece.row && piece.row <= object.last_surface;
     };
     const bool sampled = settings.light_sampling != LightSampling::none && std::ranges::any_of(l.lamps, is_its_own);
     bool looked_for = false, thin = false;

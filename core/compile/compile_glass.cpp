@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "compile/lowering.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 
 namespace glimt {
@@ -62,7 +63,13 @@ double relative_ior(const Scene& scene, const Mesh& mesh) {
   // The mesh may be a copy; its like in the scene has its name, which may be none, and its vertices.
   const auto self = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                  [&](const Mesh& m) { return m.name == mesh.name && m.vertices == mesh.vertices; });
-  return refractive_index(*find_material(scene, mesh.material)) / surrounding_ior(scene, mesh.vertices, &*self);
+  // Of a large mesh some vertices tell.
+  constexpr std::size_t enough = 64;
+  const std::vector<dvec3>& vertices = mesh.vertices;
+  std::vector<dvec3> points;
+  const std::size_t step = is_large(mesh) ? vertices.size() / enough + 1 : 1;
+  for (std::size_t i = 0; i < vertices.size(); i += step) points.push_back(vertices[i]);
+  return refractive_index(*find_material(scene, mesh.material)) / surrounding_ior(scene, points, &*self);
 }
 
 }  // namespace glimt

@@ -12,10 +12,10 @@ namespace glimt {
 using glm::dvec3;
 
 void add_flat_lamp(Lowering& l, const std::vector<dvec3>& v, const dvec3& normal, const Material& material,
-                   int first_surface, int last_surface) {
+                   int first_surface, int last_surface, int row) {
   if (!is_lamp(material)) return;
   const dvec3 radiance = material_info(material.type).radiance(material);
-  auto add = [&](const LampShape& shape) { l.lamps.push_back({shape, radiance, first_surface, last_surface}); };
+  auto add = [&](const LampShape& shape) { l.lamps.push_back({shape, radiance, first_surface, last_surface, row}); };
   if (is_parallelogram(v)) {
     add(ParallelogramLamp{{v[0], v[1] - v[0], v[3] - v[0], normal}});
   } else {
@@ -28,7 +28,7 @@ void add_sphere_lamp(Lowering& l, const dvec3& center, double radius, const Mate
   const RoundLamp round{center, radius};
   const bool by_area = l.scene.render.light_sampling == LightSampling::area;
   l.lamps.push_back({by_area ? LampShape(SphereByAreaLamp{round}) : LampShape(SphereLamp{round}),
-                     material_info(material.type).radiance(material), surface, surface});
+                     material_info(material.type).radiance(material), surface, surface, surface});
 }
 
 std::vector<AliasEntry> alias_table(const std::vector<double>& probability) {
@@ -86,6 +86,14 @@ void lower_lamps(Lowering& l) {
         l.lamps, [&](const LampPiece& p) { return p.first_surface <= surface && surface <= p.last_surface; });
     const auto row = piece == l.lamps.end() ? -1 : static_cast<int>(piece - l.lamps.begin());
     l.out.surfaces[Column::lamp][surface] = std::bit_cast<float>(row);
+  }
+  const auto in_tree = [](const LampPiece& p) { return p.first_surface >= first_tree_surface; };
+  if (std::ranges::any_of(l.lamps, in_tree)) {
+    l.out.tree_lamps.assign(l.out.tree->part.size(), -1);
+    for (std::size_t i = 0; i < l.lamps.size(); ++i)
+      if (in_tree(l.lamps[i]))
+        l.out.tree_lamps[static_cast<std::size_t>(l.lamps[i].first_surface - first_tree_surface)] =
+            static_cast<std::int32_t>(i);
   }
   l.out.lamps = std::move(table);
 }

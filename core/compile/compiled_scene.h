@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "compile/triangle_tree.h"
 #include "lamp/shapes.h"
 #include "math/table.h"
 #include "scene/scene.h"
@@ -159,6 +161,10 @@ struct CompiledScene {
   std::vector<PolygonShape> polygons;
   std::vector<PolygonBound> polygon_bounds;
   std::vector<TriangleShape> triangles;
+  std::shared_ptr<const TriangleTree> tree;  ///< of many triangles; null where there are few
+  std::vector<std::int32_t> tree_rows;       ///< of the tree's parts in the surface table
+  std::vector<std::int32_t>
+      tree_lamps;  ///< by place in the tree, the triangle's row of the lamp table or -1; empty without lamps
 
   Table<LampColumn> lamps;
   int light_paths = 0;         ///< of every pass, from lamps to mirrors and glass; 0: caustics are found by chance
@@ -186,8 +192,12 @@ struct CompiledScene {
   }
 };
 
+/// Of polygons and triangles: with more, a tree is faster than lists. Measured by tests/bench/scaling.
+inline constexpr std::size_t tree_crossing = 256;
+
 /// Lowers a valid scene (validate.h); throws SceneError for one that is not, naming the first problem. Objects and
 /// lamps that paths from the camera cannot reach are left out, so the result depends on where the camera is.
-CompiledScene compile(const Scene& scene);
+/// With more than `most_listed` polygons and triangles there is a tree.
+CompiledScene compile(const Scene& scene, std::size_t most_listed = tree_crossing);
 
 }  // namespace glimt

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <string_view>
 
 #include "compile/reach.h"
 #include "scene/file/text.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/surroundings.h"
 
@@ -28,8 +30,10 @@ struct NearestSurface {
   std::string_view name;
 };
 
-NearestSurface nearest_surface(const Scene& scene, const dvec3& eye) {
+/// Nothing farther than `limit` matters.
+NearestSurface nearest_surface(const Scene& scene, const dvec3& eye, double limit) {
   NearestSurface nearest;
+  nearest.distance = limit;
   const auto consider = [&](double distance, double height, const dvec3& front, const std::string& name) {
     if (distance < nearest.distance) nearest = {distance, height, front, name};
   };
@@ -39,8 +43,18 @@ NearestSurface nearest_surface(const Scene& scene, const dvec3& eye) {
     if (std::abs(height) < nearest.distance) consider(distance_to_polygon(eye, v), height, plane.n, name);
   };
   for (const Polygon& p : scene.polygons) consider_face(p.vertices, p.name);
-  for (const Mesh& m : scene.meshes)
-    for (const auto& t : m.triangles) consider_face(triangle_vertices(m, t), m.name);
+  for (const Mesh& m : scene.meshes) {
+    const Box box = box_of(m);
+    const dvec3 off = max(max(box.low - eye, eye - box.high), dvec3{0});
+    if (is_large(m) && length(off) > nearest.distance) continue;
+    for (const auto& t : m.triangles) {
+      const auto v = triangle_corners(m, t);
+      const dvec3 n = cross(v[1] - v[0], v[2] - v[0]);
+      const double height = dot(n, eye - v[0]);
+      if (height * height > nearest.distance * nearest.distance * dot(n, n) * (1 + 1e-9)) continue;
+      consider_face({v.begin(), v.end()}, m.name);
+    }
+  }
   for (const Sphere& s : scene.spheres) {
     const dvec3 way = eye - s.center;
     const double height = length(way) - s.radius;
@@ -58,7 +72,7 @@ void move_eye_off_surfaces(Scene& scene, std::vector<std::string>& told) {
   const dvec3 begun = camera.eye, view = normalize(camera.look_at - camera.eye);
   std::string first;
   for (int i = 0; i < most_surfaces; ++i) {
-    const NearestSurface nearest = nearest_surface(scene, camera.eye);
+    const NearestSurface nearest = nearest_surface(scene, camera.eye, 2 * eye_on_surface * size);
     if (!(nearest.distance <= eye_on_surface * size)) break;
     if (i == 0) first = nearest.name;
     const double side = dot(nearest.front, view) < -1e-12 ? -1 : 1;

@@ -8,6 +8,7 @@
 
 #include "compile/coincide.h"
 #include "scene/file/text.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/surroundings.h"
 
@@ -47,7 +48,8 @@ FlatPieces::FlatPieces(const Scene& scene, const Reach& reach)
   for (const Polygon& p : scene.polygons) add(object++, -1, p.vertices);
   for (const Mesh& m : scene.meshes) {
     int triangle = 0;
-    for (const auto& t : m.triangles) add(object, triangle++, triangle_vertices(m, t));
+    if (!is_large(m))
+      for (const auto& t : m.triangles) add(object, triangle++, triangle_vertices(m, t));
     ++object;
   }
 }

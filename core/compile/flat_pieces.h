@@ -23,7 +23,8 @@ bool same_direction(const glm::dvec3& a, const glm::dvec3& b);
 /// Whether every vertex is in the plane.
 bool lies_in(const std::vector<glm::dvec3>& outline, const HalfSpace& plane, double tolerance);
 
-/// The polygons and triangles in reach that the room's walls do not hide, and which of them coincide.
+/// The polygons and triangles in reach that the room's walls do not hide, and which of them coincide; without those of
+/// large meshes.
 class FlatPieces {
  public:
   FlatPieces(const Scene& scene, const Reach& reach);

@@ -7,6 +7,7 @@
 
 #include "compile/lowering.h"
 #include "scene/camera_view.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/pick.h"
 
@@ -173,6 +174,7 @@ void find_lamp_images(Lowering& l) {
   std::vector<LampImage>& images = l.out.lamp_images;
   std::size_t lamps = 0, tests = 0;
   const std::size_t tests_each = shapes_in(l.scene) * most_surfaces * most_steps * 3;
+  if (std::ranges::any_of(l.scene.meshes, is_large)) return;
   for (LampPiece& lamp : l.lamps) {
     const LampBody body = body_of(lamp.shape);
     const dvec3 center = body.middle() + l.origin;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compile/build_tree.h"
 #include "compile/compiled_scene.h"
 #include "compile/reach.h"
 #include "lamp/list.h"
@@ -20,8 +21,9 @@ struct Surface {
 struct LampPiece {
   LampShape shape;
   glm::dvec3 radiance;
-  int first_surface, last_surface;
-  bool looked_for = false;  ///< where it is seen in the image is known; see find_lamp_images()
+  int first_surface, last_surface;  ///< its own, which cannot hide it
+  int row;                          ///< in the surface table, of one of them
+  bool looked_for = false;          ///< where it is seen in the image is known; see find_lamp_images()
 };
 
 /// A ball around something, in compiled space.
@@ -57,6 +59,7 @@ struct Lowering {
   std::vector<Target> targets;
   std::vector<Emitting> emitting;
   std::vector<FacingSphere> facing_spheres;
+  std::vector<TreePart> tree_parts;
   CompiledScene out;
 
   const Material& material(const std::string& name) const {
@@ -74,7 +77,23 @@ std::array<float, 3> to_floats(const glm::dvec3& v);
 /// True for four vertices of a parallelogram, in order.
 bool is_parallelogram(const std::vector<glm::dvec3>& v);
 
-void lower_meshes(Lowering& l);
+/// Which shapes go into a tree instead of into lists.
+struct TreePlan {
+  bool polygons = false, triangles = false, small_solids = false;
+
+  /// Whether the mesh may become a solid, if it is closed and convex.
+  bool may_be_solid(const Mesh& mesh) const;
+};
+/// By how many there are of each; see compile().
+TreePlan plan_tree(const Lowering& l, std::size_t most_listed);
+
+/// A polygon, but for lamps, whose row in the surface table is `row`.
+void add_to_tree(Lowering& l, const Polygon& polygon, int row);
+/// The triangles of a mesh.
+void add_to_tree(Lowering& l, const Mesh& mesh, int row, bool inside_out);
+
+/// Closed convex meshes, other meshes, and the polygons that belong into the tree.
+void lower_meshes(Lowering& l, const TreePlan& plan);
 
 /// The refractive index of the glass of that object over the index of the medium around it: 1, or that of the smallest
 /// glass solid that holds the object.
@@ -83,7 +102,7 @@ double relative_ior(const Scene& scene, const Mesh& mesh);
 
 /// Pieces of a flat lamp whose front is the side of `normal`; vertices in compiled space.
 void add_flat_lamp(Lowering& l, const std::vector<glm::dvec3>& vertices, const glm::dvec3& normal,
-                   const Material& material, int first_surface, int last_surface);
+                   const Material& material, int first_surface, int last_surface, int row);
 
 void add_sphere_lamp(Lowering& l, const glm::dvec3& center, double radius, const Material& material, int surface);
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 
 namespace glimt {
@@ -35,7 +36,8 @@ std::vector<NearPiece> pieces_in_reach(const Lowering& l) {
     all.push_back({face.outline, 0, &l.scene.materials[static_cast<std::size_t>(face.material)], "the room's wall"});
   for (const Polygon* p : l.reach.polygons) all.push_back({p->vertices, 0, &l.material(p->material), p->name});
   for (const Mesh& m : l.reach.meshes)
-    for (const auto& t : m.triangles) all.push_back({triangle_vertices(m, t), 0, &l.material(m.material), m.name});
+    if (!is_large(m))
+      for (const auto& t : m.triangles) all.push_back({triangle_vertices(m, t), 0, &l.material(m.material), m.name});
   for (const Sphere* s : l.reach.spheres) all.push_back({{s->center}, s->radius, &l.material(s->material), s->name});
   return all;
 }
@@ -151,7 +153,7 @@ void choose_lamp_sampling(Lowering& l) {
       continue;
     }
     for (const LampShape& shape : by_solid_angle(lamp.shape, !mis))
-      chosen.push_back({shape, lamp.radiance, lamp.first_surface, lamp.last_surface});
+      chosen.push_back({shape, lamp.radiance, lamp.first_surface, lamp.last_surface, lamp.row});
   }
   l.lamps = std::move(chosen);
 }

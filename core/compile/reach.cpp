@@ -4,9 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 
 #include "scene/fields.h"
 #include "scene/file/text.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/surroundings.h"
 
@@ -50,7 +52,7 @@ bool is_outside(const Scene& scene, const std::vector<Face>& faces, double toler
 enum class Place { inside, piercing, on_face, outside };
 
 /// Where vertices with a ball of that radius about each lie.
-Place place(const Reach& reach, const std::vector<dvec3>& vertices, double radius) {
+Place place(const Reach& reach, std::span<const dvec3> vertices, double radius) {
   Place result = Place::inside;
   for (const RoomFace& face : reach.room) {
     double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
@@ -63,6 +65,14 @@ Place place(const Reach& reach, const std::vector<dvec3>& vertices, double radiu
     if (farthest > reach.tolerance) result = Place::piercing;
   }
   return result;
+}
+
+std::vector<dvec3> corners_of(const Box& box) {
+  std::vector<dvec3> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
+                       (i & 4) != 0 ? box.high.z : box.low.z});
+  return corners;
 }
 
 bool bounds_room(const Reach& reach, const Polygon& polygon, int material) {
@@ -129,21 +139,29 @@ void gather_objects(const Scene& scene, Reach& reach) {
   for (const Polygon& p : scene.polygons)
     if (!bounds_room(reach, p, material_index(scene, p.material))) keep(p, p.vertices, 0, reach.polygons, &p);
   for (const Mesh& m : scene.meshes) {
+    if (is_large(m) && place(reach, corners_of(box_of(m)), 0) == Place::inside) {
+      reach.meshes.push_back(m);
+      continue;
+    }
     if (is_closed(m) && !(reach.inside && std::abs(winding_number(m, *reach.inside)) > 0.5)) {
       keep(m, m.vertices, 0, reach.meshes, m);
       continue;
     }
     // Some of its triangles may be the room's own.
-    Mesh rest = m;
     bool bounds = false, in_wall = false, pierces = false;
-    std::erase_if(rest.triangles, [&](const auto& t) {
-      const Polygon triangle{{}, {}, triangle_vertices(m, t)};
-      const Place where = place(reach, triangle.vertices, 0);
-      bounds |= bounds_room(reach, triangle, material_index(scene, m.material));
+    std::vector<std::array<int, 3>> kept;
+    for (const auto& t : m.triangles) {
+      const auto corners = triangle_corners(m, t);
+      const Place where = place(reach, corners, 0);
       in_wall |= where == Place::on_face;
       pierces |= where == Place::piercing;
-      return where == Place::on_face || where == Place::outside;
-    });
+      if (where == Place::inside || where == Place::piercing)
+        kept.push_back(t);
+      else
+        bounds |= bounds_room(reach, {{}, {}, {corners.begin(), corners.end()}}, material_index(scene, m.material));
+    }
+    Mesh rest = m;
+    if (kept.size() < m.triangles.size()) rest.triangles = std::move(kept);
     if (pierces && is_light(m.material)) reach.lamp_pierces_room = true;
     if (!rest.triangles.empty()) {
       reach.meshes.push_back(std::move(rest));

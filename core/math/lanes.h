@@ -43,6 +43,9 @@ template <class F>
 inline constexpr int lane_count = LaneTypes<F>::width;
 
 using NativeLanes = xsimd::batch<float>;
+#if defined(__AVX2__) && defined(__FMA__)
+using OneRegisterOfEight = xsimd::batch<float, xsimd::fma3<xsimd::avx2>>;
+#endif
 
 // One lane.
 
@@ -326,10 +329,15 @@ Int<F> lane_numbers() {
 
 /// table[index] in every lane.
 inline float lookup(const float* table, std::int32_t index) { return table[index]; }
+inline std::int32_t lookup(const std::int32_t* table, std::int32_t index) { return table[index]; }
 
 template <class A>
 xsimd::batch<float, A> lookup(const float* table, xsimd::batch<std::int32_t, A> index) {
   return xsimd::batch<float, A>::gather(table, index);
+}
+template <class A>
+xsimd::batch<std::int32_t, A> lookup(const std::int32_t* table, xsimd::batch<std::int32_t, A> index) {
+  return xsimd::batch<std::int32_t, A>::gather(table, index);
 }
 
 /// Tables with at most this many entries are looked up by permuting registers, which is faster than a gather.

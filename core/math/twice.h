@@ -70,6 +70,13 @@ using KernelLanes = Twice<NativeLanes>;
 using KernelLanes = NativeLanes;
 #endif
 
+/// Eight lanes on every processor, for work on one path.
+#if defined(__AVX2__) && defined(__FMA__)
+using EightLanes = OneRegisterOfEight;
+#else
+using EightLanes = Twice<NativeLanes>;
+#endif
+
 template <class V>
 auto operator<(Twice<V> x, Twice<V> y) {
   return TwiceMask{x.a < y.a, x.b < y.b};
@@ -161,6 +168,10 @@ auto as_int(Twice<V> x) {
 template <class V>
 auto as_uint(Twice<V> x) {
   return Twice{as_uint(x.a), as_uint(x.b)};
+}
+template <class V>
+auto lookup(const std::int32_t* table, Twice<V> index) {
+  return Twice{lookup(table, index.a), lookup(table, index.b)};
 }
 template <class V>
 auto lookup(const float* table, Twice<V> index) {

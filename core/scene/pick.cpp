@@ -1,11 +1,14 @@
 #include "scene/pick.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
 #include "scene/fields.h"
+#include "scene/geometry/geometry_cache.h"
+#include "scene/geometry/mesh_measures.h"
 
 namespace glimt {
 namespace {
@@ -80,11 +83,48 @@ double hit(const Polygon& polygon, const WorldRay& ray, Sides sides) {
   return fronts > 0 || (fronts < 0 && sides == Sides::both) ? nearest : none;
 }
 
+/// Whether the ray comes through the box.
+bool meets(const Box& box, const WorldRay& ray) {
+  const dvec3 a = (box.low - ray.origin) / ray.direction, b = (box.high - ray.origin) / ray.direction;
+  double enters = 0, leaves = none;
+  for (int axis = 0; axis < 3; ++axis) {
+    // A ray along a side is left to the triangles.
+    if (std::isnan(a[axis]) || std::isnan(b[axis])) continue;
+    enters = std::max(enters, std::min(a[axis], b[axis]) * (1 - 1e-12));
+    leaves = std::min(leaves, std::max(a[axis], b[axis]) * (1 + 1e-12));
+  }
+  return enters <= leaves;
+}
+
+/// Boxes around so many triangles of a large mesh at a time, in the mesh's order, which mostly has neighbours together.
+constexpr std::size_t block_size = 64;
+
+std::shared_ptr<const std::vector<Box>> block_boxes(const Mesh& mesh) {
+  static GeometryCache<std::vector<Box>> cache;
+  return cache.get(mesh, [&] {
+    std::vector<Box> boxes(mesh.triangles.size() / block_size + 1);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      for (const dvec3& v : triangle_corners(mesh, mesh.triangles[i])) boxes[i / block_size].add(v);
+    return boxes;
+  });
+}
+
 double hit(const Mesh& mesh, const WorldRay& ray, Sides sides) {
   double nearest = none;
-  const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
-  for (const auto& t : mesh.triangles)
-    nearest = std::min(nearest, hit(vertex(t[0]), vertex(t[1]), vertex(t[2]), ray, sides));
+  const auto consider = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto v = triangle_corners(mesh, mesh.triangles[i]);
+      nearest = std::min(nearest, hit(v[0], v[1], v[2], ray, sides));
+    }
+  };
+  const std::size_t count = mesh.triangles.size();
+  if (!is_large(mesh)) {
+    consider(0, count);
+  } else if (meets(box_of(mesh), ray)) {
+    const auto boxes = block_boxes(mesh);
+    for (std::size_t k = 0; k < boxes->size(); ++k)
+      if (meets((*boxes)[k], ray)) consider(k * block_size, std::min((k + 1) * block_size, count));
+  }
   return nearest;
 }
 

@@ -12,6 +12,7 @@
 #include "mesh/place_mesh.h"
 #include "scene/material.h"
 #include "scene/settings.h"
+#include "scene/shared.h"
 
 /// The scene as a person edits it: plain structs with names. World space is left-to-right, y up, right-handed, in
 /// metres. Angles are in degrees here, as in files; radiance is linear RGB in W/(m^2 sr).
@@ -81,12 +82,12 @@ struct MeshPart {
 struct Mesh {
   std::string name;
   std::string material;
-  std::vector<glm::dvec3> vertices{};
-  std::vector<std::array<int, 3>> triangles{};  ///< indices into `vertices`, counter-clockwise from the front
-  std::vector<glm::dvec3> normals{};            ///< one a vertex, of any length above 0, or none
-  bool smooth = false;                          ///< shaded with normals between those of its vertices
-  std::vector<MeshPart> parts{};                ///< of all triangles, where not all are of `material`; otherwise none
-  std::optional<MeshFile> file{};               ///< where the geometry comes from, which is placed in the world here
+  Shared<std::vector<glm::dvec3>> vertices{};
+  Shared<std::vector<std::array<int, 3>>> triangles{};  ///< indices into `vertices`, counter-clockwise from the front
+  Shared<std::vector<glm::dvec3>> normals{};            ///< one a vertex, of any length above 0, or none
+  bool smooth = false;                                  ///< shaded with normals between those of its vertices
+  std::vector<MeshPart> parts{};   ///< of all triangles, where not all are of `material`; otherwise none
+  std::optional<MeshFile> file{};  ///< where the geometry comes from, which is placed in the world here
 
   bool operator==(const Mesh&) const = default;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/fields.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/geometry/room.h"
 #include "scene/pick.h"
@@ -44,6 +45,12 @@ bool is_enclosed(const Scene& scene, const dvec3& point, double size) {
   return true;
 }
 
+/// Large meshes bound no room, and rays take long to look for them.
+Scene without_large_meshes(Scene scene) {
+  std::erase_if(scene.meshes, is_large);
+  return scene;
+}
+
 /// Rays that leave the lamps' fronts.
 std::vector<WorldRay> rays_from_lamps(const Scene& scene, const dvec3& middle) {
   std::vector<WorldRay> rays;
@@ -72,8 +79,10 @@ Box box_of(const Scene& scene) {
   Box box;
   for (const Polygon& p : scene.polygons)
     for (const dvec3& v : p.vertices) box.add(v);
-  for (const Mesh& m : scene.meshes)
-    for (const dvec3& v : m.vertices) box.add(v);
+  for (const Mesh& m : scene.meshes) {
+    const Box own = box_of(m);
+    if (own.low.x <= own.high.x) box.add(own.low), box.add(own.high);
+  }
   for (const Sphere& s : scene.spheres) {
     box.add(s.center - s.radius);
     box.add(s.center + s.radius);
@@ -83,9 +92,12 @@ Box box_of(const Scene& scene) {
 
 double size_of(const Scene& scene) { return box_of(scene).size(); }
 
-bool is_enclosed(const Scene& scene, const dvec3& point) { return is_enclosed(scene, point, size_of(scene)); }
+bool is_enclosed(const Scene& scene, const dvec3& point) {
+  return is_enclosed(without_large_meshes(scene), point, size_of(scene));
+}
 
-std::optional<dvec3> place_in_room(const Scene& scene, const dvec3& eye) {
+std::optional<dvec3> place_in_room(const Scene& whole, const dvec3& eye) {
+  const Scene scene = without_large_meshes(whole);
   const Box box = box_of(scene);
   const double size = box.size();
   const dvec3 middle = (box.low + box.high) / 2.0;

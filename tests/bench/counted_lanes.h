@@ -209,6 +209,10 @@ auto lookup(const float* table, Counted<V> index) {
   return counted(Operation::lookup, lookup(table, index.v));
 }
 template <class V>
+auto lookup(const std::int32_t* table, Counted<V> index) {
+  return counted(Operation::lookup, lookup(table, index.v));
+}
+template <class V>
 auto lookup_small(const float* table, Counted<V> index) {
   return counted(Operation::lookup, lookup_small(table, index.v));
 }

@@ -1,16 +1,22 @@
-// embree_rate SCENE: rays per second of Embree's tree and of the kernel's flat list on the same geometry, the same rays
-// (random_walk) and all threads, as JSON. No shading.
+// embree_rate SCENE: rays per second of Embree's tree, of the kernel's walk through its own tree and of its flat list
+// on the same geometry, the same rays (random_walk) and all threads, as JSON. No shading. embree_rate N: the same in a
+// room with a bumpy ball of about N triangles, without the list; also how long the tree takes to build, its size, and
+// rays per second of the whole kernel, shading included.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "embree_tree.h"
 #include "kernel/geometry/intersect.h"
+#include "mesh_shapes.h"
 #include "render/render.h"
 #include "scene/file/scene_file.h"
 
@@ -141,23 +147,59 @@ nlohmann::json rates(std::vector<Contender>& contenders) {
   return result;
 }
 
+/// A room with a lamp, and a ball that is not convex.
+Scene room_with_ball(int triangles) {
+  Scene scene;
+  scene.camera = {{0, 0, 3.9}, {0, 0, 0}, {0, 1, 0}, 70};
+  scene.image = {256, 256};
+  scene.materials = {lambertian("white", glm::dvec3{0.7}), light("lamp", glm::dvec3{10})};
+  scene.polygons = box(glm::dvec3{-4}, glm::dvec3{4}, "white");
+  scene.polygons.push_back(square_lamp(2, 3.99));
+  // 4 (rings - 1) rings triangles
+  const int rings = static_cast<int>(std::lround(std::sqrt(triangles / 4.0)));
+  scene.meshes = {bumpy_ball("ball", "white", {0, 0, 0}, 2.5, rings, 0.3)};
+  return scene;
+}
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Rays a second of the kernel, each path of which has four surfaces, and light from the lamp at the first three.
+double shaded_rate(Scene scene) {
+  constexpr int surfaces = 4, samples = 16;
+  scene.render.max_depth = surfaces;
+  scene.render.roulette_depth = 64;
+  scene.render.path_sharing = PathSharing::off;
+  const CompiledScene compiled = compile(scene);
+  Film film = make_film(compiled);
+  const double seconds = seconds_of([&] { render_pass(compiled, film, samples, {}); });
+  return scene.image.width * scene.image.height * samples * (2.0 * surfaces - 1) / seconds;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 2) throw std::runtime_error("usage: embree_rate SCENE");
-  const Scene scene = read_scene(argv[1]);
-  const CompiledScene compiled = compile(scene);
+  if (argc != 2) throw std::runtime_error("usage: embree_rate SCENE | embree_rate TRIANGLES");
+  const bool many = std::string_view(argv[1]).find_first_not_of("0123456789") == std::string_view::npos;
+  const Scene scene = many ? room_with_ball(std::stoi(argv[1])) : read_scene(argv[1]);
+  CompiledScene compiled;
+  const double build = seconds_of([&] { compiled = compile(scene, 0); });
+  const CompiledScene listed = many ? CompiledScene{} : compile(scene, std::numeric_limits<std::size_t>::max());
   const Tree tree(scene, compiled.origin);
   const Rays r = random_walk(tree, compiled, rays);
   // As the kernel chooses: the rare shapes cost registers, so it leaves them out where the scene has none.
-  const bool rare = !compiled.triangles.empty() || !compiled.shells.empty() || compiled.room_hides_lamps ||
-                    std::ranges::any_of(compiled.solids, &Solid::glass) || compiled.lamps.rows() != 1;
+  const bool rare = !listed.triangles.empty() || !listed.shells.empty() || listed.room_hides_lamps ||
+                    std::ranges::any_of(listed.solids, &Solid::glass) || listed.lamps.rows() != 1;
   constexpr Features all{}, few{.one_parallelogram = true,
                                 .lobes = lobes_up_to(LobeUse::always),
                                 .caustics = false,
                                 .rare_shapes = false,
                                 .glow = false,
-                                .any_settings = false};
+                                .any_settings = false,
+                                .tree = false};
   std::vector<Contender> contenders;
   for (const bool shadow : {false, true}) {
     contenders.push_back(
@@ -168,14 +210,24 @@ int main(int argc, char** argv) try {
         {"embree_packets_split",
          [&](int i, bool s) { return trace_packet(tree, r, i, s, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT); }, shadow});
     contenders.push_back({"embree_single", [&](int i, bool s) { return trace_singles(tree, r, i, s); }, shadow});
-    contenders.push_back(
-        {"flat_list",
-         [&](int i, bool s) { return rare ? trace_list<all>(compiled, r, i, s) : trace_list<few>(compiled, r, i, s); },
-         shadow});
+    if (compiled.tree)
+      contenders.push_back({"tree", [&](int i, bool s) { return trace_list<all>(compiled, r, i, s); }, shadow});
+    if (!many)
+      contenders.push_back(
+          {"flat_list",
+           [&](int i, bool s) { return rare ? trace_list<all>(listed, r, i, s) : trace_list<few>(listed, r, i, s); },
+           shadow});
   }
   nlohmann::json result = rates(contenders);
   result["lanes"] = width;
   result["threads"] = hardware_threads();
+  if (many) {
+    result["triangles"] = compiled.tree->triangles;
+    result["compile_seconds"] = build;
+    result["compile_again_seconds"] = seconds_of([&] { compile(scene); });
+    result["tree_bytes"] = compiled.tree->bytes();
+    result["shaded"] = shaded_rate(scene);
+  }
   std::puts(result.dump(1).c_str());
 } catch (const std::exception& error) {
   std::fprintf(stderr, "embree_rate: %s\n", error.what());

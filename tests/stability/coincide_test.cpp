@@ -53,7 +53,7 @@ Scene tilted(Scene scene, std::size_t first_polygon) {
   for (std::size_t i = first_polygon; i < scene.polygons.size(); ++i)
     for (dvec3& v : scene.polygons[i].vertices) v = tilt(v);
   for (Mesh& m : scene.meshes)
-    for (dvec3& v : m.vertices) v = tilt(v);
+    for (dvec3& v : m.vertices.edit()) v = tilt(v);
   return scene;
 }
 
@@ -68,15 +68,15 @@ Mesh stairs(const std::string& name, const std::string& material, const dvec3& a
   const std::vector<std::array<double, 2>> profile{{0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}};
   Mesh mesh{name, material, {}, {}};
   for (const double z : {0.0, 1.0})
-    for (const auto& [x, y] : profile) mesh.vertices.push_back(at + dvec3{x, y, z});
+    for (const auto& [x, y] : profile) mesh.vertices.edit().push_back(at + dvec3{x, y, z});
   for (const auto& t : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
-    mesh.triangles.push_back({t[0], t[2], t[1]});
-    mesh.triangles.push_back({t[0] + 6, t[1] + 6, t[2] + 6});
+    mesh.triangles.edit().push_back({t[0], t[2], t[1]});
+    mesh.triangles.edit().push_back({t[0] + 6, t[1] + 6, t[2] + 6});
   }
   for (int i = 0; i < 6; ++i) {
     const int k = (i + 1) % 6;
-    mesh.triangles.push_back({i, k, k + 6});
-    mesh.triangles.push_back({i, k + 6, i + 6});
+    mesh.triangles.edit().push_back({i, k, k + 6});
+    mesh.triangles.edit().push_back({i, k + 6, i + 6});
   }
   return mesh;
 }
@@ -123,13 +123,14 @@ struct Case {
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
 Mesh doubled(Mesh mesh) {
-  mesh.triangles.insert(mesh.triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
+  const std::vector<std::array<int, 3>> again = mesh.triangles;
+  mesh.triangles.edit().insert(mesh.triangles.end(), again.begin(), again.end());
   return mesh;
 }
 /// An open mesh of a square, front up; `both`: with triangles the other way around, of the same vertices.
 Mesh sheet(const std::string& material, double y, bool both) {
   Mesh mesh{"sheet", material, square("", "", y, 0.5).vertices, {{0, 1, 2}, {0, 2, 3}}};
-  if (both) mesh.triangles.insert(mesh.triangles.end(), {{0, 2, 1}, {0, 3, 2}});
+  if (both) mesh.triangles.edit().insert(mesh.triangles.end(), {{0, 2, 1}, {0, 3, 2}});
   return mesh;
 }
 
@@ -330,13 +331,13 @@ Mesh twin_blocks() {
   Mesh both = block("a", "glass", {-1, -0.5, -0.5}, {0, 0.5, 0.5});
   const Mesh other = block("b", "glass", {0, -0.5, -0.5}, {1, 0.5, 0.5});
   const int offset = static_cast<int>(both.vertices.size());
-  both.vertices.insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const auto& t : other.triangles) both.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  both.vertices.edit().insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& t : other.triangles) both.triangles.edit().push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   return both;
 }
 
 Mesh tilted(Mesh mesh) {
-  for (dvec3& v : mesh.vertices) v = tilt(v);
+  for (dvec3& v : mesh.vertices.edit()) v = tilt(v);
   return mesh;
 }
 
@@ -483,8 +484,8 @@ Mesh exploded(const Mesh& mesh) {
   Mesh apart{mesh.name, mesh.material, {}, {}};
   for (const auto& t : mesh.triangles) {
     const int first = static_cast<int>(apart.vertices.size());
-    for (const int i : t) apart.vertices.push_back(mesh.vertices[static_cast<std::size_t>(i)]);
-    apart.triangles.push_back({first, first + 1, first + 2});
+    for (const int i : t) apart.vertices.edit().push_back(mesh.vertices[static_cast<std::size_t>(i)]);
+    apart.triangles.edit().push_back({first, first + 1, first + 2});
   }
   return apart;
 }
@@ -494,10 +495,10 @@ Mesh needled(Mesh mesh) {
   const auto [a, b, c] = mesh.triangles[0];
   const auto at = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
   const int middle = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.push_back((at(a) + at(b)) / 2.0);
-  mesh.triangles[0] = {a, middle, c};
-  mesh.triangles.push_back({middle, b, c});
-  mesh.triangles.push_back({a, b, middle});
+  mesh.vertices.edit().push_back((at(a) + at(b)) / 2.0);
+  mesh.triangles.edit()[0] = {a, middle, c};
+  mesh.triangles.edit().push_back({middle, b, c});
+  mesh.triangles.edit().push_back({a, b, middle});
   return mesh;
 }
 

@@ -13,7 +13,7 @@ namespace {
 template <class F>
 void for_all_points(Scene& scene, F f) {
   for (Polygon& p : scene.polygons) std::ranges::for_each(p.vertices, f);
-  for (Mesh& m : scene.meshes) std::ranges::for_each(m.vertices, f);
+  for (Mesh& m : scene.meshes) std::ranges::for_each(m.vertices.edit(), f);
   for (Sphere& s : scene.spheres) f(s.center);
   f(scene.camera.eye);
   f(scene.camera.look_at);

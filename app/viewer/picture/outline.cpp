@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "scene/camera_view.h"
+#include "scene/geometry/geometry_cache.h"
+#include "scene/geometry/mesh_measures.h"
 
 namespace glimt {
 namespace {
@@ -81,7 +83,21 @@ void add_polygon(Outline& outline, const Polygon& polygon) {
   for (std::size_t i = 0; i < v.size(); ++i) outline.add({v[i], v[(i + 1) % v.size()]}, edge_pieces);
 }
 
+void add_box(Outline& outline, const Box& box) {
+  const auto corner = [&](int i) {
+    return dvec3{(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
+                 (i & 4) != 0 ? box.high.z : box.low.z};
+  };
+  for (int i = 0; i < 8; ++i)
+    for (const int side : {1, 2, 4})
+      if ((i & side) == 0) outline.add({corner(i), corner(i | side)}, 1);
+}
+
 void add_mesh(Outline& outline, const Mesh& mesh) {
+  if (is_large(mesh)) {
+    add_box(outline, box_of(mesh));
+    return;
+  }
   const auto vertex = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)]; };
   // For each edge, how many triangles face the camera and how many do not.
   std::map<std::pair<int, int>, std::pair<int, int>> sides;

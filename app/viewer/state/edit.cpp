@@ -28,7 +28,8 @@ std::string unused_name(const Scene& scene, const std::string& wish) {
 }
 
 std::vector<dvec3>& vertices_of(Scene& scene, const ObjectId& object) {
-  return object.kind == ObjectKind::mesh ? scene.meshes[object.index].vertices : scene.polygons[object.index].vertices;
+  return object.kind == ObjectKind::mesh ? scene.meshes[object.index].vertices.edit()
+                                         : scene.polygons[object.index].vertices;
 }
 
 Box box_of(const std::vector<dvec3>& vertices) {
@@ -77,7 +78,7 @@ std::vector<ObjectId> lamps_of(const Scene& scene) {
 
 double size_of(const Scene& scene, const ObjectId& object) {
   if (object.kind == ObjectKind::sphere) return 2 * scene.spheres[object.index].radius;
-  const Box box = box_of(object.kind == ObjectKind::mesh ? scene.meshes[object.index].vertices
+  const Box box = box_of(object.kind == ObjectKind::mesh ? scene.meshes[object.index].vertices.get()
                                                          : scene.polygons[object.index].vertices);
   const dvec3 extent = box.high - box.low;
   return std::max({extent.x, extent.y, extent.z});

@@ -141,7 +141,10 @@ class Connector {
   [[gnu::noinline]] void connect(int count) {
     ConnectionPoint<F> p;
     visit(p, []<class N>(N& value, auto& places) { value = load<N>(places.data()); });
-    if (surfaces_.has_rough_matt()) surfaces_.look_up_kind(p.at);
+    if (surfaces_.has_rough_matt()) {
+      surfaces_.find_row(p.at);
+      surfaces_.look_up_kind(p.at);
+    }
     const M active = less(lane_numbers<F>(), I(count));
     const int rays = setting<features, &Settings::shadow_rays>(scene_);
     V found = V::all(F(0.0f));
@@ -213,9 +216,9 @@ class Connector {
     M lit = choice.sum > F(0.0f);
     if (!any(lit)) return V::all(F(0.0f));
     lit = lit & !occluded<F, features, true>(scene_, {p.at.point, choice.from_x, p.at.surface}, choice.x_length,
-                                             choice.surface, choice.surface);
+                                             choice.surface, choice.surface, lit);
     lit = lit & !occluded<F, features>(scene_, {choice.exit, choice.to_y, choice.surface}, choice.y_length,
-                                       lamp.first_surface, lamp.last_surface);
+                                       lamp.first_surface, lamp.last_surface, lit);
     V weight = lamp.weight * choice.colour * choice.sum;
     // Lanes without a chain may hold NaN.
     if (surfaces_.has_rough_matt())

@@ -50,6 +50,7 @@ F chance_share(const CompiledScene& scene, const Surfaces<F, features>& surfaces
                const Ray<F>& ray, const Interaction<F>& lamp, const Int<F>& row) {
   Interaction<F> sphere = lamp;
   sphere.surface = select(less(ray.from, Int<F>(0)), Int<F>(0), ray.from);  // lanes on no surface have no chain
+  surfaces.find_row(sphere);
   const Vec3<F> center = surfaces.vector(Column::normal_x, sphere), way = lamp.point - center;
   const F inverse_radius = surfaces.value(Column::inverse_radius, sphere), radius = reciprocal(inverse_radius);
   const F cos = min(max(dot(ray.origin - center, ray.direction) * inverse_radius, F(0.0f)), F(1.0f));

@@ -20,6 +20,7 @@ struct Features {
                              ///< a cutaway
   bool glow = true;          ///< surfaces with emission that are no lamps
   bool any_settings = true;  ///< `usual_settings` may have any value
+  bool tree = true;          ///< a tree of triangles, and smooth shading
 };
 
 /// Settings that have their defaults in kernels without `any_settings`. A setting that is in no list is read at run
@@ -88,15 +89,17 @@ void with_features(const CompiledScene& scene, Function f) {
                                                 .caustics = with_caustics,
                                                 .rare_shapes = false,
                                                 .glow = false,
-                                                .any_settings = false}>{});
+                                                .any_settings = false,
+                                                .tree = false}>{});
   };
-  const auto general = std::integral_constant<Features, Features{}>{};
-  if (general_kernel_only || !usual) {
-    f(general);
+  if (general_kernel_only || scene.tree) {
+    f(std::integral_constant<Features, Features{}>{});
     return;
   }
   if constexpr (!general_kernel_only) {
-    if (lacks(~always)) {
+    if (!usual) {
+      f(std::integral_constant<Features, Features{.tree = false}>{});
+    } else if (lacks(~always)) {
       caustics ? call_usual.template operator()<always, true>() : call_usual.template operator()<always, false>();
     } else if (lacks(~often)) {
       caustics ? call_usual.template operator()<often, true>() : call_usual.template operator()<often, false>();

@@ -42,7 +42,8 @@ template <class F, Features features, class Surfaces>
   Ray<F> rest{fma(ray.direction, start, ray.origin), ray.direction, ray.from};
   Hit<F> hit{};
   // Each surface is looked through once.
-  for (int passed = 0; passed <= scene.surfaces.rows(); ++passed) {
+  const auto triangles = static_cast<int>(features.tree && scene.tree ? scene.tree->triangles : 0);
+  for (int passed = 0; passed <= scene.surfaces.rows() + triangles; ++passed) {
     hit = closest_hit<F, features>(scene, rest);
     const auto at = surfaces.meet(rest, hit);
     const Mask<F> flat = surfaces.is_flat(at);
@@ -61,12 +62,13 @@ template <class F, Features features, class Surfaces>
   return hit;
 }
 
-/// The first surface along each ray of a path, whose first ray is the camera's.
+/// The first surface along each ray of a path, whose first ray is the camera's; of a tree, along those asked for.
 template <class F, Features features, class Surfaces>
-Hit<F> path_hit(const CompiledScene& scene, const Surfaces& surfaces, const Ray<F>& ray, const Mask<F>& from_eye) {
+Hit<F> path_hit(const CompiledScene& scene, const Surfaces& surfaces, const Ray<F>& ray, const Mask<F>& from_eye,
+                const Mask<F>& asked = all_lanes<F>()) {
   if constexpr (features.rare_shapes)
     if (scene.cutaway) return cutaway_hit<F, features>(scene, surfaces, ray, from_eye);
-  return closest_hit<F, features>(scene, ray);
+  return closest_hit<F, features>(scene, ray, asked);
 }
 
 }  // namespace glimt

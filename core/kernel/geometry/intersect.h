@@ -1,15 +1,17 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <limits>
 
 #include "kernel/entry/features.h"
+#include "kernel/geometry/tree_walk.h"
 #include "math/vec.h"
 
 /// Rays against the compiled scene. Nothing here uses an epsilon; a ray never hits again what it leaves, because
 ///  - of a pair of room planes it takes the one it moves towards;
 ///  - opaque spheres and solids are hit from outside only, by rays that move towards them;
-///  - a polygon or triangle is not tested against rays that start on it;
+///  - a polygon or triangle is not tested against rays that start on it, in a tree too;
 ///  - inside the glass that a ray starts on, only the far side is looked for.
 namespace glimt {
 
@@ -145,11 +147,77 @@ F triangle_t(const TriangleShape& triangle, const Ray<F>& ray, Mask<F>& inside) 
   return t;
 }
 
+/// The rays of all lanes, one by one.
+template <class F>
+class RayList {
+  static constexpr auto lanes = static_cast<std::size_t>(lane_count<F>);
+
+ public:
+  explicit RayList(const Ray<F>& ray) {
+    const std::array<const Vec3<F>*, 2> vectors{&ray.origin, &ray.direction};
+    for (std::size_t k = 0; k < 2; ++k) {
+      store(vectors[k]->x, parts_[k][0].data());
+      store(vectors[k]->y, parts_[k][1].data());
+      store(vectors[k]->z, parts_[k][2].data());
+    }
+    store(ray.from, from_.data());
+  }
+
+  TreeRay operator[](std::size_t i) const {
+    return {{parts_[0][0][i], parts_[0][1][i], parts_[0][2][i]},
+            {parts_[1][0][i], parts_[1][1][i], parts_[1][2][i]},
+            from_[i] - first_tree_surface};
+  }
+
+ private:
+  std::array<std::array<std::array<float, lanes>, 3>, 2> parts_;  ///< [origin or direction][axis][lane]
+  std::array<std::int32_t, lanes> from_;
+};
+
+/// f(lane) for each lane in the mask.
+template <class F, class Function>
+void for_lanes(const Mask<F>& mask, Function f) {
+  for (std::uint32_t lanes = bits(mask); lanes != 0; lanes &= lanes - 1)
+    f(static_cast<std::size_t>(std::countr_zero(lanes)));
+}
+
+/// Takes what the rays in the mask meet in the tree before `hit`.
+template <class F>
+[[gnu::noinline]] void take_from_tree(const TriangleTree& tree, const Ray<F>& ray, const Mask<F>& asked, Hit<F>& hit) {
+  const RayList<F> rays(ray);
+  std::array<float, lane_count<F>> t;
+  std::array<std::int32_t, lane_count<F>> surface;
+  store(hit.t, t.data());
+  store(hit.surface, surface.data());
+  for_lanes<F>(asked, [&](std::size_t i) {
+    const TreeHit found = first_in_tree(tree, rays[i], t[i]);
+    if (found.place < 0) return;
+    t[i] = found.t;
+    surface[i] = first_tree_surface + found.place;
+  });
+  hit = {load<F>(t.data()), load<Int<F>>(surface.data())};
+}
+
+/// Which rays in the mask meet a triangle of the tree before `distance` whose surface is not from `first` to `last`.
+template <class F>
+[[gnu::noinline]] Mask<F> hidden_by_tree(const TriangleTree& tree, const Ray<F>& ray, const Mask<F>& asked,
+                                         const F& distance, const Int<F>& first, const Int<F>& last) {
+  const RayList<F> rays(ray);
+  std::array<float, lane_count<F>> far, hidden{};
+  std::array<std::int32_t, lane_count<F>> low, high;
+  store(distance, far.data()), store(first, low.data()), store(last, high.data());
+  for_lanes<F>(asked, [&](std::size_t i) {
+    const bool found = hidden_in_tree(tree, rays[i], far[i], low[i] - first_tree_surface, high[i] - first_tree_surface);
+    hidden[i] = found ? 1.0f : 0.0f;
+  });
+  return load<F>(hidden.data()) > F(0.0f);
+}
+
 }  // namespace detail
 
-/// The first surface along each ray.
+/// The first surface along each ray; of a tree, along those that are asked for.
 template <class F, Features features>
-Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
+Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray, const Mask<F>& asked = all_lanes<F>()) {
   using namespace detail;
   constexpr float inf = std::numeric_limits<float>::infinity();
   Hit<F> hit{F(inf), Int<F>(0)};
@@ -201,14 +269,17 @@ Hit<F> closest_hit(const CompiledScene& scene, const Ray<F>& ray) {
     const F t = max(roots.middle + sqrt(roots.square), F(0.0f));
     take(hit, t < hit.t, t, sphere.surface);
   }
+  if constexpr (features.tree)
+    if (scene.tree) take_from_tree(*scene.tree, ray, asked, hit);
   return hit;
 }
 
 /// Whether something lies between a ray's origin and the point of a lamp at `distance`. The
 /// surfaces from `first` to `last` are the lamp's own and do not count, nor do others of a convex solid that has them.
-/// `to_any`: the point is anywhere, so the lamps count too.
+/// `to_any`: the point is anywhere, so the lamps count too. A tree is asked for the rays `asked` alone.
 template <class F, Features features, bool to_any = false>
-Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<F> first, Int<F> last) {
+Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<F> first, Int<F> last,
+                 const Mask<F>& asked = all_lanes<F>()) {
   using namespace detail;
   Mask<F> hidden = no_lanes<F>();
   // A single piece of a lamp need not be tested at all, which spares the others the question whose they are.
@@ -268,6 +339,8 @@ Mask<F> occluded(const CompiledScene& scene, const Ray<F>& ray, F distance, Int<
     const SphereRoots<F> roots = sphere_roots(sphere, ray);
     hide(roots.middle + sqrt(roots.square) < distance * F(1 - 0x1p-16f), sphere.surface);
   }
+  if constexpr (features.tree)
+    if (scene.tree) hidden = hidden | hidden_by_tree<F>(*scene.tree, ray, asked & !hidden, distance, first, last);
   return hidden;
 }
 

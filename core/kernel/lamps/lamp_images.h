@@ -88,7 +88,7 @@ class LampImages {
     V throughput = V::all(F(1.0f)), found = V::all(F(0.0f));
     M on = all_lanes<F>();
     for (int depth = 0; any(on); ++depth) {
-      const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, ray, depth == 0 ? all_lanes<F>() : no_lanes<F>());
+      const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, ray, depth == 0 ? all_lanes<F>() : no_lanes<F>(), on);
       on = on & (hit.t < F(std::numeric_limits<float>::infinity()));
       const Interaction<F> at = surfaces_.meet(ray, hit);
       const M shines = on & surfaces_.is_lamp(at) & at.front;
@@ -100,7 +100,8 @@ class LampImages {
                                 static_cast<std::uint32_t>(dimension), rays, k);
       };
       const Point2<F> uv{number(HitDimension::direction_u), F(0.0f)};
-      const ScatterSample<F> next = surfaces_.sample(at, ray.direction * F(-1.0f), uv, F(0.0f));
+      ScatterSample<F> next = surfaces_.sample(at, ray.direction * F(-1.0f), uv, F(0.0f));
+      surfaces_.keep_side(at, ray.direction * F(-1.0f), next);
       throughput = throughput * surfaces_.colour(at) * next.weight * select(next.crosses, next.inverse_eta2, F(1.0f));
       ray = {at.point, next.direction, at.surface};
       if (depth >= setting<features, &Settings::roulette_depth>(scene_)) {

@@ -109,6 +109,7 @@ class TailSharing {
     at.point = vector(point, place);
     at.surface = known >> 1;
     at.front = equal(known & I(1), I(1));
+    surfaces_.find_row(at);
     at.normal = surfaces_.normal(at);
     return at;
   }
@@ -143,7 +144,7 @@ class TailSharing {
         if (k != j) {
           finds = finds & equal(integer(T::x_class, place(k)), of_class) & (cos_x > F(0.0f)) & (cos_y > F(0.0f));
           const Ray<F> ray{x[k].point, way[k], x[k].surface};
-          finds = finds & !occluded<F, features, true>(scene_, ray, reciprocal(inverse), y.surface, y.surface);
+          finds = finds & !occluded<F, features, true>(scene_, ray, reciprocal(inverse), y.surface, y.surface, finds);
         }
         pdf_a[k] = select(finds, max(cos_x * cos_y, F(1e-20f)) * (inverse * inverse), F(0.0f));
         sum = sum + pdf_a[k];

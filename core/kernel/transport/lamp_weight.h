@@ -19,7 +19,7 @@ F lamp_weight(const CompiledScene& scene, const Surfaces<F, features>& surfaces,
   using M = Mask<F>;
   F weight(1.0f);
   const auto row_of = [&](M& mask) {
-    const I row = as_int(surfaces.value(Column::lamp, at));
+    const I row = surfaces.lamp_row(at);
     mask = mask & less(I(-1), row);
     return select(mask, row, I(0));
   };

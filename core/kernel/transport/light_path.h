@@ -96,8 +96,8 @@ class LightPathTracer {
 
   /// One surface for every lane; returns the lanes whose paths end there.
   M step(LightPathState<F>& s) {
-    const Hit<F> hit = closest_hit<F, features>(scene_, s.ray);
-    const Interaction<F> at = surfaces_.meet(s.ray, hit);
+    const Hit<F> hit = closest_hit<F, features>(scene_, s.ray, less(s.path, I(end())));
+    Interaction<F> at = surfaces_.meet(s.ray, hit);
     const M aimed = equal(as_int(surfaces_.value(Column::target, at)), s.target) | less(I(0), s.depth);
     const M met = hit.t < F(std::numeric_limits<float>::infinity());
     M ended = surfaces_.is_lamp(at) | !(met & aimed);
@@ -114,7 +114,14 @@ class LightPathTracer {
     // paths.
     const HitNumbers<F> numbers = numbers_of(s);
     const Point2<F> uv = numbers.pair(HitDimension::direction_u);
-    const ScatterSample<F> next = surfaces_.sample(at, way_back, uv, surfaces_.has_glossy() ? numbers.lobe() : F(0.0f));
+    if (surfaces_.has_smooth()) {
+      s.flux = s.flux * select(at.smooth & matt, adjoint_matt(at, way_back), F(1.0f));
+      at.normal = select(at.smooth & matt, at.flat, at.normal);
+    }
+    ScatterSample<F> next = surfaces_.sample(at, way_back, uv, surfaces_.has_glossy() ? numbers.lobe() : F(0.0f));
+    if (surfaces_.has_smooth())
+      s.flux = s.flux * select(at.smooth & !matt, adjoint(at, way_back, next.direction), F(1.0f));
+    surfaces_.keep_side(at, way_back, next);
     s.flux = s.flux * next.weight;
     s.ray = {at.point, next.direction, at.surface};
     const F survival = min(max_component(colour), F(largest_survival));
@@ -133,17 +140,34 @@ class LightPathTracer {
     const F inverse = inverse_sqrt(distance2);
     const F distance = distance2 * inverse;
     const V wo = way * inverse;
-    const F cos = dot(wo, at.normal);
+    const F shading_cos = dot(wo, at.normal), cos = surfaces_.flat_cos(at, wo, shading_cos);
     const V from_eye = wo * F(-1.0f);
     const Projection<F> image = project(scene_, from_eye);
     M seen = matt & image.inside & (cos > F(0.0f));
     if (!any(seen)) return;
-    seen = seen & !occluded<F, features, true>(scene_, {at.point, wo, at.surface}, distance, I(0), I(-1));
+    seen = seen & !occluded<F, features, true>(scene_, {at.point, wo, at.surface}, distance, I(0), I(-1), seen);
     const F importance = pinhole_importance(scene_, from_eye, distance, cos);
     const F weight = importance * light_path_share(scene_, importance) * F(std::numbers::inv_pi_v<float>);
     V radiance = s.flux * weight;
-    if (surfaces_.has_rough_matt()) radiance = radiance * surfaces_.evaluate_matt(at, wi, wo, at.cos_o, cos);
+    if (surfaces_.has_rough_matt())
+      radiance = radiance * surfaces_.evaluate_matt(at, wi, wo, at.cos_o,
+                                                    surfaces_.has_smooth() ? max(shading_cos, F(least_cosine)) : cos);
+    if (surfaces_.has_smooth()) radiance = radiance * select(at.smooth, adjoint_matt(at, wi), F(1.0f));
     done_.add(radiance, image.pixel, seen, writer());
+  }
+
+  // Where a normal for shading stands in for the surface's own, what importance meets differs from what radiance does
+  // by the ratios of the cosines to both (Veach, "Robust Monte Carlo methods for light transport simulation", 1997,
+  // 5.3).
+
+  /// Of a matt surface that light comes to from wi, where the way on is chosen by the surface's own normal.
+  F adjoint_matt(const Interaction<F>& at, const V& wi) const {
+    return surfaces_.folded_cos(at, wi) * reciprocal(max(dot(wi, at.flat), F(least_cosine)));
+  }
+  /// Of others, where it is chosen by the normal for shading.
+  F adjoint(const Interaction<F>& at, const V& wi, const V& wo) const {
+    const F over = abs(dot(wi, at.normal) * dot(wo, at.flat)), under = abs(dot(wi, at.flat) * dot(wo, at.normal));
+    return over * reciprocal(max(under, F(least_cosine * least_cosine)));
   }
 
   auto writer() const {
@@ -159,6 +183,7 @@ class LightPathTracer {
   static constexpr std::uint32_t light_path_seeds = 1u << 31;  ///< apart from all seeds of camera paths
   static constexpr std::uint32_t longest_sequence = 1u << 30;
   static constexpr std::uint32_t hit_block = hit_dimensions(1);
+  static constexpr float least_cosine = 1e-4f;
 
   const CompiledScene& scene_;
   const LightBlock& block_;

@@ -45,20 +45,29 @@ class NextEvent {
       M faces = cos_i > F(0.0f);
       if constexpr (Surfaces<F, features>::may_be_glossy())
         if (scene_.has_glass) faces = faces | surfaces_.is_glossy(at);
+      const bool smooth = surfaces_.has_smooth();
+      if (smooth)
+        faces = (faces & !at.smooth) |
+                (at.smooth & ((surfaces_.flat_cos(at, lamp.direction, cos_i) > F(0.0f)) | surfaces_.transmits(at)));
       const M lit = asks & faces & (lamp.inverse_pdf > F(0.0f));
       if (!any(lit)) continue;
       const Ray<F> shadow{at.point, lamp.direction, at.surface};
-      const M seen = lit & !occluded<F, features>(scene_, shadow, lamp.distance, lamp.first_surface, lamp.last_surface);
+      const M seen =
+          lit & !occluded<F, features>(scene_, shadow, lamp.distance, lamp.first_surface, lamp.last_surface, lit);
       F weight = abs_cos(cos_i) * (lamp.inverse_pdf * scale);
+      if (smooth) weight = select(at.smooth, lamp.inverse_pdf * scale, weight);
       if (shares()) {
         // M rays here and one direction there (the balance heuristic): M / (M + pdf_w there / pdf_w here).
         const F m(static_cast<float>(rays));
-        const F there = surfaces_.pdf_w(at, lamp.direction, wo, cos_i, at.cos_o);
+        F there = surfaces_.pdf_w(at, lamp.direction, wo, cos_i, at.cos_o);
+        if (smooth && any(at.smooth)) there = select(at.smooth, surfaces_.folded_pdf_w(at, lamp.direction, wo), there);
         const F share = m * reciprocal(fma(there, lamp.inverse_pdf * lamp.inverse_choice, m));
         weight = weight * (matt_shares() ? share : select(surfaces_.is_glossy(at), share, F(1.0f)));
       }
       // Lanes that do not see the lamp may hold values that are no numbers.
-      const V factor = surfaces_.evaluate(at, lamp.direction, wo, cos_i, at.cos_o) * weight;
+      V factor = surfaces_.evaluate(at, lamp.direction, wo, cos_i, at.cos_o) * weight;
+      if (smooth && any(at.smooth))
+        factor = select(at.smooth, surfaces_.folded_evaluate(at, lamp.direction, wo) * weight, factor);
       direct = fma(lamp.weight, select(seen, factor, V::all(F(0.0f))), direct);
     }
     return direct;

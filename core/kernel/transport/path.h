@@ -105,7 +105,7 @@ class PathTracer {
   /// One surface for every lane; returns the lanes whose paths end there.
   M step(PathState<F>& s) {
     // The next surface, and its own light.
-    const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, s.ray, equal(s.depth, I(0)));
+    const Hit<F> hit = path_hit<F, features>(scene_, surfaces_, s.ray, equal(s.depth, I(0)), s.place.is_busy());
     const M missed = !(hit.t < F(std::numeric_limits<float>::infinity()));
     const Interaction<F> at = surfaces_.meet(s.ray, hit);
     const M lamp = surfaces_.is_lamp(at);
@@ -116,7 +116,7 @@ class PathTracer {
     const M matt = surfaces_.is_matt(at) & !missed;
     const M glossy = surfaces_.has_glossy() ? surfaces_.is_glossy(at) & !missed : no_lanes<F>();
     if (counts_chance()) note_way(s, matt | glossy, ended);
-    if (sharing_) begin_tails(s, at, matt);
+    if (sharing_) begin_tails(s, at, surfaces_.without_smooth(matt, at));
     if (looks_apart_) s.lamps.specular = select(matt | glossy, abs(s.lamps.specular), s.lamps.specular);
 
     // Light from the lamps.
@@ -128,9 +128,12 @@ class PathTracer {
     // A direction to go on in, and light from the lamps over spheres.
     const Point2<F> uv = numbers.pair(HitDimension::direction_u);
     const F lobe = surfaces_.has_glossy() ? numbers.lobe() : F(0.0f);
-    const ScatterSample<F> next = surfaces_.sample(at, wo, uv, lobe);
+    ScatterSample<F> next = surfaces_.sample(at, wo, uv, lobe);
+    surfaces_.keep_side(at, wo, next, lamps_.shares());
     const M crosses = next.crosses & !missed;
-    if (connects() && any(matt)) connect(s, at, matt, wo, next.pdf_w);
+    // Ends of paths are shared and connected where a surface has one normal.
+    const M plain = surfaces_.without_smooth(matt, at);
+    if (connects() && any(plain)) connect(s, at, plain, wo, next.pdf_w);
     s.throughput = s.throughput * next.weight;
     if (surfaces_.has_glass()) {
       // Radiance in the medium behind is eta^2 times as large as on this side, so this much of it arrives.
@@ -139,7 +142,7 @@ class PathTracer {
     }
 
     // What each technique has to know at the next surface.
-    if (connects()) s.chain.found.follow(surfaces_, s.ray, at, hit.t, matt & s.chain.connects, crosses);
+    if (connects()) s.chain.found.follow(surfaces_, s.ray, at, hit.t, plain & s.chain.connects, crosses);
     share_lamps(s, at, hit.t, matt, glossy, next.pdf_w);
     s.ray = {at.point, next.direction, at.surface};
     if (set<&Settings::max_depth>() > 0) ended = ended | !may_go_on(s);
@@ -223,6 +226,7 @@ class PathTracer {
     // What a tail holds depends on whether the first surface was specular, and its length on where a limit leaves it.
     const I of_class = set<&Settings::max_depth>() > 0 ? s.depth : select(less(I(0), s.depth), I(1), I(0));
     x.class_and_side = select(first, of_class + of_class + select(at.front, I(1), I(0)), x.class_and_side);
+    if (surfaces_.has_smooth()) x.class_and_side = select(first & at.smooth, I(FirstMatt<F>::past), x.class_and_side);
     if (!surfaces_.has_rough_matt()) return;
     x.throughput = select(first, throughput, x.throughput);
     x.wo = select(first, wo, x.wo);
@@ -253,8 +257,8 @@ class PathTracer {
     if (caustics == Caustics::off) specular = select(matt, F(0.0f), specular);
     if (caustics == Caustics::only) specular = select(matt & !(specular > F(0.0f)), F(1.0f), specular);
     if (light_traced()) {
-      const F chance =
-          F(1.0f) - light_path_share(scene_, pinhole_importance(scene_, s.ray.direction, distance, at.cos_o));
+      const F cos_o = surfaces_.flat_cos(at, s.ray.direction * F(-1.0f), at.cos_o);
+      const F chance = F(1.0f) - light_path_share(scene_, pinhole_importance(scene_, s.ray.direction, distance, cos_o));
       specular = select(matt & equal(s.depth, I(0)), chance, specular);
     }
     const bool by_chance = (!lamps_.on() || lamps_.matt_shares()) && caustics != Caustics::only;

@@ -106,8 +106,8 @@ std::string write_scene(const Scene& scene, const std::filesystem::path& folder)
     if (mesh.file)
       text += file_lines(*mesh.file, folder);
     else
-      text += line("vertices", array_text(mesh.vertices, vector_text)) +
-              line("triangles", array_text(mesh.triangles, triangle_text));
+      text += line("vertices", array_text(mesh.vertices.get(), vector_text)) +
+              line("triangles", array_text(mesh.triangles.get(), triangle_text));
     if (mesh.smooth) text += line("smooth", "true");
   }
   return text;

@@ -13,6 +13,7 @@
 
 #include "scene/file/text.h"
 #include "scene/geometry/convex_pieces.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 #include "scene/geometry/mesh_parts.h"
 
@@ -54,8 +55,14 @@ bool is_flat(const Mesh& mesh, const Corners& t) {
   return has_no_area(vertex(mesh, t[0]), vertex(mesh, t[1]), vertex(mesh, t[2]));
 }
 
-/// For each vertex the first that is in its place.
-std::vector<int> first_in_place(const std::vector<dvec3>& vertices) {
+/// For each vertex the first that is in its place; with normals, one whose normal is like its own.
+std::vector<int> first_in_place(const Mesh& mesh) {
+  const std::vector<dvec3>&vertices = mesh.vertices, &normals = mesh.normals;
+  const auto alike = [&](int a, int b) {
+    if (normals.empty()) return true;
+    const dvec3 m = normals[static_cast<std::size_t>(a)], n = normals[static_cast<std::size_t>(b)];
+    return dot(m, n) > (1 - 1e-6) * length(m) * length(n);
+  };
   dvec3 low{vertices.front()}, high{low};
   for (const dvec3& v : vertices) low = min(low, v), high = max(high, v);
   const double tolerance = weld_tolerance * length(high - low), cell = 8 * tolerance;
@@ -74,7 +81,7 @@ std::vector<int> first_in_place(const std::vector<dvec3>& vertices) {
         for (std::int64_t z = number(p.z - tolerance); z <= number(p.z + tolerance); ++z) {
           const auto [begin, end] = cells.equal_range(key(x, y, z));
           for (auto it = begin; it != end; ++it)
-            if (length(vertices[static_cast<std::size_t>(it->second)] - low - p) <= tolerance)
+            if (length(vertices[static_cast<std::size_t>(it->second)] - low - p) <= tolerance && alike(i, it->second))
               own = std::min(own, it->second);
         }
     if (own == i) cells.emplace(key(number(p.x), number(p.y), number(p.z)), i);
@@ -124,67 +131,119 @@ void drop_flat(Mesh& mesh) {
       note(all.size() - 1);
     }
   }
-  mesh.triangles.clear();
+  std::vector<Corners> rest;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (kept[i] && !is_flat(mesh, all[i])) mesh.triangles.push_back(all[i]);
+    if (kept[i] && !is_flat(mesh, all[i])) rest.push_back(all[i]);
+  mesh.triangles = std::move(rest);
 }
 
 /// Triangles of the same three corners that face the same way are one. Returns how many were more.
 std::size_t drop_repeated(Mesh& mesh) {
-  std::set<Corners> seen;
-  return std::erase_if(mesh.triangles, [&](Corners t) {
+  std::vector<std::pair<Corners, std::size_t>> sorted;
+  sorted.reserve(mesh.triangles.size());
+  for (Corners t : mesh.triangles) {
     std::rotate(t.begin(), std::ranges::min_element(t), t.end());
-    return !seen.insert(t).second;
-  });
+    sorted.emplace_back(t, sorted.size());
+  }
+  std::ranges::sort(sorted);
+  std::vector<bool> again(sorted.size());
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i].first == sorted[i - 1].first) again[sorted[i].second] = true;
+  const auto count = static_cast<std::size_t>(std::ranges::count(again, true));
+  std::size_t i = 0;
+  if (count > 0) std::erase_if(mesh.triangles.edit(), [&](const Corners&) { return again[i++]; });
+  return count;
 }
 
 void drop_unused_vertices(Mesh& mesh) {
   std::vector<int> place(mesh.vertices.size(), -1);
-  std::vector<dvec3> used;
-  for (Corners& t : mesh.triangles)
+  std::vector<dvec3> used, normals;
+  for (Corners& t : mesh.triangles.edit())
     for (int& i : t) {
       int& p = place[static_cast<std::size_t>(i)];
       if (p < 0) {
         p = static_cast<int>(used.size());
         used.push_back(vertex(mesh, i));
+        if (!mesh.normals.empty()) normals.push_back(mesh.normals[static_cast<std::size_t>(i)]);
       }
       i = p;
     }
   mesh.vertices = std::move(used);
+  if (!mesh.normals.empty()) mesh.normals = std::move(normals);
 }
 
-void mend(Mesh& mesh, std::size_t index, Tallies& tallies) {
-  const std::string name = place_in("mesh", mesh.name, index);
+/// What becomes of a mesh.
+struct MendedMesh {
+  bool changed = false;
+  Mesh mesh{};  ///< where it is changed; of no name and material
+  std::size_t flat = 0, twice = 0, welded = 0;
+};
+
+MendedMesh mended_mesh(const Mesh& given) {
+  MendedMesh result;
+  Mesh mesh{
+      .name = {}, .material = {}, .vertices = given.vertices, .triangles = given.triangles, .normals = given.normals};
   const bool closed = is_closed(mesh);
   const auto flat = std::ranges::count_if(mesh.triangles, [&](const Corners& t) { return is_flat(mesh, t); });
-  const std::vector<int> first = first_in_place(mesh.vertices);
+  // A large mesh that needs nothing is not looked at further.
+  if (Mesh copy = mesh; is_large(mesh) && closed && flat == 0 && drop_repeated(copy) == 0) return result;
+  const std::vector<int> first = first_in_place(mesh);
   Mesh welded = mesh;
-  for (Corners& t : welded.triangles)
+  for (Corners& t : welded.triangles.edit())
     for (int& i : t) i = first[static_cast<std::size_t>(i)];
   if (flat > 0) drop_flat(welded);
   const std::size_t twice = drop_repeated(welded);
-  if (closed && flat == 0 && twice == 0) return;
+  if (closed && flat == 0 && twice == 0) return result;
 
-  tallies.flat.add(static_cast<std::size_t>(flat), name);
-  tallies.twice.add(twice, name);
+  result.flat = static_cast<std::size_t>(flat);
+  result.twice = twice;
   // Only a mesh that becomes closed has a use for vertices that are shared.
   const bool helps = is_closed(welded);
   if (helps && !closed)
     for (std::size_t i = 0; i < first.size(); ++i)
-      if (first[i] != static_cast<int>(i)) tallies.welded.add(1, name);
-  if (!helps && flat == 0 && twice == 0) return;
+      if (first[i] != static_cast<int>(i)) ++result.welded;
+  if (!helps && flat == 0 && twice == 0) return result;
   if (helps || twice > 0)
     mesh = std::move(welded);
   else
     drop_flat(mesh);
   drop_unused_vertices(mesh);
+  result.changed = true;
+  result.mesh = std::move(mesh);
+  return result;
+}
+
+void mend(Mesh& mesh, std::size_t index, Tallies& tallies) {
+  static GeometryCache<MendedMesh> cache;
+  const std::shared_ptr<const MendedMesh> now = is_large(mesh) ? cache.get(mesh, [&] { return mended_mesh(mesh); })
+                                                               : std::make_shared<MendedMesh>(mended_mesh(mesh));
+  const std::string name = place_in("mesh", mesh.name, index);
+  tallies.flat.add(now->flat, name);
+  tallies.twice.add(now->twice, name);
+  tallies.welded.add(now->welded, name);
+  if (!now->changed) return;
+  mesh.vertices = now->mesh.vertices;
+  mesh.triangles = now->mesh.triangles;
+  mesh.normals = now->mesh.normals;
+}
+
+/// What by_material() gives; kept for large meshes.
+std::vector<Mesh> parts_of(const Mesh& mesh) {
+  if (!is_large(mesh)) return by_material(mesh);
+  struct Split {
+    std::vector<MeshPart> parts;
+    std::vector<Mesh> meshes;
+  };
+  static GeometryCache<Split> cache;
+  const auto split = cache.get(mesh, [&] { return Split{mesh.parts, by_material(mesh)}; });
+  return split->parts == mesh.parts ? split->meshes : by_material(mesh);
 }
 
 /// Each keeps its place for its first material; those of the others come behind.
 void split_by_material(std::vector<Mesh>& meshes) {
   for (std::size_t i = 0, count = meshes.size(); i < count; ++i) {
     if (meshes[i].parts.empty()) continue;
-    std::vector<Mesh> parts = by_material(meshes[i]);
+    std::vector<Mesh> parts = parts_of(meshes[i]);
     meshes[i] = std::move(parts.front());
     std::move(parts.begin() + 1, parts.end(), std::back_inserter(meshes));
   }

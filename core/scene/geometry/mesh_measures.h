@@ -1,10 +1,18 @@
 #pragma once
 
+#include <array>
+
+#include "math/box.h"
 #include "scene/scene.h"
 
 namespace glimt {
 
 std::vector<glm::dvec3> triangle_vertices(const Mesh& mesh, const std::array<int, 3>& triangle);
+/// The same where there are many.
+std::array<glm::dvec3, 3> triangle_corners(const Mesh& mesh, const std::array<int, 3>& triangle);
+
+/// Of all vertices.
+Box box_of(const Mesh& mesh);
 
 /// True where triangles run along every edge as often one way as the other.
 bool is_closed(const Mesh& mesh);

@@ -35,7 +35,8 @@ void move_faces(Mesh& mesh, const std::vector<FaceMove>& moves) {
         own.push_back({n, dot(n, by[t])});
     }
   }
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+  std::vector<dvec3>& vertices = mesh.vertices.edit();
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (!touched[v]) continue;
     // Least squares; the term without a constraint keeps a vertex from sliding where it is free to.
     glm::dmat3 squares(1e-9);
@@ -44,15 +45,18 @@ void move_faces(Mesh& mesh, const std::vector<FaceMove>& moves) {
       squares += outerProduct(c.normal, c.normal);
       sum += c.normal * c.move;
     }
-    mesh.vertices[v] += inverse(squares) * sum;
+    vertices[v] += inverse(squares) * sum;
   }
 }
 
 void move_apart(Mesh& mesh, const std::vector<FaceMove>& moves) {
+  if (moves.empty()) return;
+  std::vector<dvec3>& vertices = mesh.vertices.edit();
+  std::vector<std::array<int, 3>>& triangles = mesh.triangles.edit();
   for (const FaceMove& move : moves)
-    for (int& v : mesh.triangles[static_cast<std::size_t>(move.triangle)]) {
-      mesh.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)] + move.by);
-      v = static_cast<int>(mesh.vertices.size()) - 1;
+    for (int& v : triangles[static_cast<std::size_t>(move.triangle)]) {
+      vertices.push_back(vertices[static_cast<std::size_t>(v)] + move.by);
+      v = static_cast<int>(vertices.size()) - 1;
     }
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "math/box.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mesh_measures.h"
 
 namespace glimt {
@@ -170,6 +171,8 @@ bool overlap(const Sphere& a, const Sphere& b) {
 }
 
 bool overlap(const Sphere& sphere, const Mesh& mesh) {
+  if (is_large(mesh) && !meet(box_of(mesh), {sphere.center - sphere.radius, sphere.center + sphere.radius}, 0))
+    return false;
   const std::vector<Triangle> triangles = triangles_of(mesh);
   const double tolerance = touch_tolerance * std::min(2 * sphere.radius, box_of(triangles).size());
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
@@ -183,6 +186,7 @@ bool overlap(const Sphere& sphere, const Mesh& mesh) {
 }
 
 bool overlap(const Mesh& a, const Mesh& b) {
+  if ((is_large(a) || is_large(b)) && !meet(box_of(a), box_of(b), 0)) return false;
   const std::vector<Triangle> of_a = triangles_of(a), of_b = triangles_of(b);
   const Box box_a = box_of(of_a), box_b = box_of(of_b);
   const double tolerance = touch_tolerance * std::min(box_a.size(), box_b.size());

@@ -3,6 +3,7 @@
 
 #include "scene/fields.h"
 #include "scene/geometry/convex_pieces.h"
+#include "scene/geometry/geometry_cache.h"
 #include "scene/geometry/mend.h"
 #include "scene/validate/validate_parts.h"
 
@@ -36,7 +37,9 @@ void check_polygon(const Polygon& polygon, std::size_t index, Problems& problems
   problems.push_back({path + "." + place, who + ": " + cut.mistake});
 }
 
-void check_mesh(const Mesh& mesh, std::size_t index, Problems& problems) {
+namespace {
+
+void find_problems(const Mesh& mesh, std::size_t index, Problems& problems) {
   const std::string path = element("mesh", index), who = called("mesh", mesh.name, index);
   const bool finite = check_vertices(mesh.vertices, path, who, problems);
   if (mesh.triangles.empty())
@@ -62,6 +65,23 @@ void check_mesh(const Mesh& mesh, std::size_t index, Problems& problems) {
   }
   if (finite && !some_area && problems.size() == before)
     problems.push_back({path + ".triangles", who + ": none of its triangles has an area; allowed is at least one"});
+}
+
+}  // namespace
+
+void check_mesh(const Mesh& mesh, std::size_t index, Problems& problems) {
+  const auto check = [&] {
+    Problems found;
+    find_problems(mesh, index, found);
+    const bool valid = found.empty();
+    problems.insert(problems.end(), found.begin(), found.end());
+    return valid;
+  };
+  static GeometryCache<bool> known;
+  if (!is_large(mesh))
+    check();
+  else if (bool fresh = false; !*known.get(mesh, [&] { return fresh = true, check(); }) && !fresh)
+    check();
 }
 
 }  // namespace glimt

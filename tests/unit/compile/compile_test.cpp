@@ -58,7 +58,7 @@ TEST(Compile, TetrahedronOnTheFloorLosesItsBottom) {
   EXPECT_TRUE(c.triangles.empty());
   EXPECT_TRUE(mentions(c.left_out, "a face of \"tetrahedron\""));
   Scene raised = from_file("hexagon");
-  for (dvec3& v : raised.meshes[0].vertices) v.y += 0.01;
+  for (dvec3& v : raised.meshes[0].vertices.edit()) v.y += 0.01;
   EXPECT_EQ(compile(raised).solid_planes.size(), 4u);
 }
 
@@ -132,7 +132,7 @@ TEST(Compile, LampInThePlaneOfTheCeilingIsLeftOutWithAWarning) {
     Scene with_mesh = scene;
     with_mesh.polygons.pop_back();
     with_mesh.meshes = {{"lamp", "lamp", scene.polygons.back().vertices, {{0, 1, 2}, {0, 2, 3}}}};
-    for (dvec3& v : with_mesh.meshes[0].vertices) v.y = y;
+    for (dvec3& v : with_mesh.meshes[0].vertices.edit()) v.y = y;
     EXPECT_TRUE(
         mentions(compile(with_mesh).warnings, y > 1 ? "\"lamp\" is outside" : "\"lamp\" lies in the plane of a wall"));
   }
@@ -227,7 +227,7 @@ TEST(Compile, ASceneFarAwayIsTheSame) {
     for (Polygon& p : scene.polygons)
       for (dvec3& v : p.vertices) v += by;
     for (Mesh& m : scene.meshes)
-      for (dvec3& v : m.vertices) v += by;
+      for (dvec3& v : m.vertices.edit()) v += by;
     const CompiledScene far = compile(scene);
     ASSERT_EQ(far.room.size(), near.room.size());
     ASSERT_EQ(far.solid_planes.size(), near.solid_planes.size());

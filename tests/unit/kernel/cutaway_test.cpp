@@ -121,7 +121,7 @@ TEST(Cutaway, BacksAreLookedThroughAndFrontsAreNot) {
   for (const bool back : {true, false}) {
     if (back) {
       std::ranges::reverse(scene.polygons.back().vertices);
-      for (auto& t : scene.meshes.back().triangles) std::swap(t[0], t[1]);
+      for (auto& t : scene.meshes.back().triangles.edit()) std::swap(t[0], t[1]);
     } else {
       std::ranges::reverse(scene.polygons.back().vertices);
     }

@@ -165,7 +165,7 @@ TEST(Mend, PiecesKeepNameMaterialAndFlux) {
 
 TEST(Mend, ASoundSceneStaysAsItIs) {
   Mesh open = cube({2, 0, 0}, 1);
-  open.triangles.pop_back();
+  open.triangles.edit().pop_back();
   const Scene scene =
       scene_of({{"s", "white"}}, {{"p", "white", outline(shapes[0].points)}}, {cube({}, 1), open, ball(6, 8)});
   const Mended mended = mend(scene);
@@ -178,12 +178,12 @@ Mesh exploded(const Mesh& mesh, double noise = 0) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> off(-noise, noise);
   Mesh apart = mesh;
-  apart.vertices.clear();
-  for (auto& t : apart.triangles)
+  auto& vertices = apart.vertices.edit();
+  vertices.clear();
+  for (auto& t : apart.triangles.edit())
     for (int& i : t) {
-      apart.vertices.push_back(mesh.vertices[static_cast<std::size_t>(i)] +
-                               dvec3{off(random), off(random), off(random)});
-      i = static_cast<int>(apart.vertices.size()) - 1;
+      vertices.push_back(mesh.vertices[static_cast<std::size_t>(i)] + dvec3{off(random), off(random), off(random)});
+      i = static_cast<int>(vertices.size()) - 1;
     }
   return apart;
 }
@@ -223,14 +223,14 @@ Mesh with_needles(Mesh mesh, int needles) {
   for (int i = 1; i <= needles; ++i) {
     const double t = static_cast<double>(i) / (needles + 1);
     const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(k)]; };
-    mesh.vertices.push_back(at(a) + (at(b) - at(a)) * t);
+    mesh.vertices.edit().push_back(at(a) + (at(b) - at(a)) * t);
     along.push_back(static_cast<int>(mesh.vertices.size()) - 1);
   }
   along.push_back(b);
-  mesh.triangles.erase(mesh.triangles.begin());
-  for (std::size_t i = 0; i + 1 < along.size(); ++i) mesh.triangles.push_back({along[i], along[i + 1], c});
+  mesh.triangles.edit().erase(mesh.triangles.begin());
+  for (std::size_t i = 0; i + 1 < along.size(); ++i) mesh.triangles.edit().push_back({along[i], along[i + 1], c});
   // The fan of needles between the edge as it was and the points on it.
-  for (std::size_t i = 1; i + 1 < along.size(); ++i) mesh.triangles.push_back({along[i + 1], along[i], from});
+  for (std::size_t i = 1; i + 1 < along.size(); ++i) mesh.triangles.edit().push_back({along[i + 1], along[i], from});
   return mesh;
 }
 
@@ -255,11 +255,11 @@ TEST(Mend, TrianglesWithoutAreaLeaveAClosedMeshClosed) {
 
 TEST(Mend, TrianglesWithACornerTwiceOrThereTwiceGo) {
   Mesh mesh = cube({}, 1);
-  mesh.triangles.push_back({3, 3, 1});
-  mesh.triangles.insert(mesh.triangles.begin(), {2, 5, 2});
+  mesh.triangles.edit().push_back({3, 3, 1});
+  mesh.triangles.edit().insert(mesh.triangles.begin(), {2, 5, 2});
   auto again = mesh.triangles[4];
   std::ranges::rotate(again, again.begin() + 1);
-  mesh.triangles.push_back(again);
+  mesh.triangles.edit().push_back(again);
   const Mended mended = mend(scene_of({}, {}, {mesh}));
   EXPECT_TRUE(is_closed(mended.scene.meshes[0]));
   EXPECT_EQ(mended.scene.meshes[0].triangles.size(), 12u);

@@ -213,8 +213,8 @@ Scene random_scene(std::mt19937_64& random) {
   }
   for (std::size_t i = 0; i < below(3); ++i) {
     Mesh mesh{.name = "", .material = not_glass(), .vertices = {}, .triangles = {}};
-    for (int k = 0; k < 12; ++k) mesh.vertices.push_back(colour());
-    for (int k = 0; k < 10; ++k) mesh.triangles.push_back({k, k + 1, k + 2});
+    for (int k = 0; k < 12; ++k) mesh.vertices.edit().push_back(colour());
+    for (int k = 0; k < 10; ++k) mesh.triangles.edit().push_back({k, k + 1, k + 2});
     scene.meshes.push_back(mesh);
   }
   return scene;
@@ -266,7 +266,7 @@ TEST(Override, SetsAnyValue) {
   expected.spheres[0].radius = 0.25;
   expected.polygons[2].material = "lamp";
   expected.polygons[3].material = "white";
-  expected.meshes[0].vertices[3].y = -3;
+  expected.meshes[0].vertices.edit()[3].y = -3;
   EXPECT_EQ(
       with({"name=Another name", "camera.eye=[0,0,5]", "camera.look_at.1=0.5", "render.spp=7", "render.method=naive",
             "material.clay.roughness=0.25", "material.clay.formula = \"report\"", "sphere.oren-nayar.radius=0.5",

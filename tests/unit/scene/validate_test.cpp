@@ -188,13 +188,13 @@ TEST(ValidateMesh, ClosedMeshes) {
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_TRUE(is_closed(flipped(mesh)));
   EXPECT_TRUE(is_closed(ball(10, 20)));
-  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  std::swap(mesh.triangles.edit()[3][0], mesh.triangles.edit()[3][1]);
   EXPECT_FALSE(is_closed(mesh)) << "one triangle is turned over";
   mesh = cube({}, 1);
-  mesh.triangles.pop_back();
+  mesh.triangles.edit().pop_back();
   EXPECT_FALSE(is_closed(mesh)) << "one is missing";
   mesh = cube({}, 1);
-  mesh.triangles.push_back(mesh.triangles[0]);
+  mesh.triangles.edit().push_back(mesh.triangles[0]);
   EXPECT_FALSE(is_closed(mesh)) << "one is there twice";
   EXPECT_FALSE(is_closed(Mesh{}));
 }
@@ -202,20 +202,20 @@ TEST(ValidateMesh, ClosedMeshes) {
 TEST(ValidateMesh, IndicesAndTriangles) {
   Mesh mesh = cube({}, 1);
   mesh.material = "white";
-  mesh.triangles[2][1] = 8;
-  mesh.triangles[4][0] = -1;
+  mesh.triangles.edit()[2][1] = 8;
+  mesh.triangles.edit()[4][0] = -1;
   EXPECT_EQ(paths(scene_of({}, {}, {mesh})), (Paths{"mesh[0].triangles[2]", "mesh[0].triangles[4]"}));
-  mesh.vertices[7].z = std::numeric_limits<double>::infinity();
+  mesh.vertices.edit()[7].z = std::numeric_limits<double>::infinity();
   mesh.triangles = cube({}, 1).triangles;
   EXPECT_EQ(paths(scene_of({}, {}, {mesh})), Paths{"mesh[0].vertices[7]"});
-  mesh.vertices[7].z = 1;
+  mesh.vertices.edit()[7].z = 1;
   mesh.triangles = {{0, 1, 1}, {2, 2, 3}};
   EXPECT_EQ(paths(scene_of({}, {}, {mesh})), Paths{"mesh[0].triangles"}) << "none has an area";
 }
 
 TEST(ValidateMesh, OpenMeshesAreAllowedUnlessOfGlass) {
   Mesh mesh = cube({}, 1);
-  mesh.triangles.pop_back();
+  mesh.triangles.edit().pop_back();
   EXPECT_EQ(paths(scene_of({}, {}, {mesh})), Paths{"mesh[0].material"});
   mesh.material = "white";
   EXPECT_EQ(paths(scene_of({}, {}, {mesh})), Paths{});
