@@ -236,7 +236,10 @@ std::vector<Mesh> parts_of(const Mesh& mesh) {
   };
   static GeometryCache<Split> cache;
   const auto split = cache.get(mesh, [&] { return Split{mesh.parts, by_material(mesh)}; });
-  return split->parts == mesh.parts ? split->meshes : by_material(mesh);
+  if (split->parts != mesh.parts) return by_material(mesh);
+  std::vector<Mesh> meshes = split->meshes;
+  for (Mesh& part : meshes) part.name = mesh.name, part.smooth = mesh.smooth;
+  return meshes;
 }
 
 /// Each keeps its place for its first material; those of the others come behind.
