@@ -10,7 +10,11 @@ bool is_used(const Scene& scene, const std::string& material) {
   const auto used = [&](const auto& objects) {
     return std::ranges::any_of(objects, [&](const auto& object) { return object.material == material; });
   };
-  return used(scene.spheres) || used(scene.polygons) || used(scene.meshes);
+  const auto worn = [&](const Mesh& mesh) {
+    if (mesh.parts.empty()) return mesh.material == material;
+    return std::ranges::find(mesh.parts, material, &MeshPart::material) != mesh.parts.end();
+  };
+  return used(scene.spheres) || used(scene.polygons) || std::ranges::any_of(scene.meshes, worn);
 }
 
 bool has_specular(const Scene& scene) {

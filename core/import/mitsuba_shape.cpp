@@ -74,6 +74,7 @@ void add_mesh(MitsubaImport& in, const ShapeParts& parts, std::vector<dvec3> ver
 
 void add_cube(MitsubaImport& in, const ShapeParts& parts) {
   std::vector<dvec3> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
   std::vector<std::array<int, 3>> triangles;
   constexpr std::array<std::array<int, 4>, 6> sides{
@@ -133,6 +134,7 @@ void add_disk(MitsubaImport& in, pugi::xml_node shape, const ShapeParts& parts) 
   const double step = 2 * std::numbers::pi / disk_corners;
   const double radius = std::sqrt(step / std::sin(step));
   std::vector<dvec3> outline;
+  outline.reserve(disk_corners);
   for (int i = 0; i < disk_corners; ++i)
     outline.emplace_back(radius * std::cos(i * step), radius * std::sin(i * step), 0);
   add_polygon(in, parts, std::move(outline));

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <new>
+#include <ranges>
 #include <vector>
 
 #include "mesh/mesh_file.h"
@@ -109,7 +110,7 @@ void walk_nodes(const tinygltf::Model& model, const fs::path& file,
   };
   std::vector<Visit> stack;
   const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parent) {
-    for (auto it = nodes.rbegin(); it != nodes.rend(); ++it) stack.push_back({*it, parent});
+    for (const int node : std::views::reverse(nodes)) stack.push_back({node, parent});
   };
   if (!model.scenes.empty()) {
     const std::size_t scene = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);

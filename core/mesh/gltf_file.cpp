@@ -32,7 +32,8 @@ class Rows {
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
     columns_ = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     if (stride <= 0 || bytes <= 0 || columns_ <= 0) refuse("is of no known type");
-    const std::size_t size = buffer.data.size(), row = static_cast<std::size_t>(bytes * columns_);
+    const std::size_t size = buffer.data.size(),
+                      row = static_cast<std::size_t>(bytes) * static_cast<std::size_t>(columns_);
     count_ = accessor.count;
     stride_ = static_cast<std::size_t>(stride);
     if (view.byteOffset > size || view.byteLength > size - view.byteOffset || accessor.byteOffset > view.byteLength)

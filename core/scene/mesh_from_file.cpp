@@ -39,7 +39,9 @@ void place_from_file(Mesh& mesh, const Scene& scene) {
   mesh.vertices = std::move(placed.vertices);
   mesh.triangles = std::move(placed.triangles);
   mesh.normals = std::move(placed.normals);
-  mesh.parts = parts_of(file, scene, mesh.material);
+  name_parts(mesh, scene);
 }
+
+void name_parts(Mesh& mesh, const Scene& scene) { mesh.parts = parts_of(*mesh.file, scene, mesh.material); }
 
 }  // namespace glimt

@@ -9,4 +9,7 @@ namespace glimt {
 /// validate() refuses, is not calculated with.
 void place_from_file(Mesh& mesh, const Scene& scene);
 
+/// Its parts alone, after materials of the scene or the mesh's own have changed.
+void name_parts(Mesh& mesh, const Scene& scene);
+
 }  // namespace glimt

@@ -7,6 +7,7 @@
 
 #include "math/box.h"
 #include "scene/fields.h"
+#include "scene/mesh_from_file.h"
 #include "scene/validate/validate.h"
 
 namespace glimt {
@@ -17,8 +18,11 @@ using glm::dvec3;
 /// How many objects of the scene have the material.
 std::size_t users(const Scene& scene, const std::string& material) {
   const auto all = objects_of(scene);
+  const auto in_parts = std::ranges::count_if(scene.meshes, [&](const Mesh& mesh) {
+    return std::ranges::find(mesh.parts, material, &MeshPart::material) != mesh.parts.end();
+  });
   return static_cast<std::size_t>(
-      std::ranges::count_if(all, [&](const ObjectId& o) { return material_name_of(scene, o) == material; }));
+      in_parts + std::ranges::count_if(all, [&](const ObjectId& o) { return material_name_of(scene, o) == material; }));
 }
 
 std::string unused_name(const Scene& scene, const std::string& wish) {
@@ -48,6 +52,8 @@ void set_material(Scene& scene, const ObjectId& object, Material material) {
     material.name = unused_name(scene, name);
     worn = material.name;
     scene.materials.push_back(std::move(material));
+    for (Mesh& mesh : scene.meshes)
+      if (mesh.file) name_parts(mesh, scene);
     return;
   }
   const auto own = std::ranges::find(scene.materials, worn, &Material::name);

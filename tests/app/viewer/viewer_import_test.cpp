@@ -86,5 +86,19 @@ TEST_F(ViewerImport, ScalingAMeshScalesItsPlacement) {
   ADD_FAILURE() << "no mesh has a file";
 }
 
+// A mesh of a file's materials gets another of its own: what wore that changes, and a saved scene says the same.
+TEST_F(ViewerImport, ANewMaterialIsWornByTheMeshsOwnParts) {
+  std::ofstream("scene.toml") << write_scene(small_room(), folder)
+                              << "[[mesh]]\nname = \"solid\"\nmaterial = \"white\"\nfile = \"part.obj\"\n"
+                                 "materials = {steel = \"mirror\"}\n";
+  Scene scene = read_scene("scene.toml");
+  const std::size_t solid = scene.meshes.size() - 1;
+  set_material(scene, {ObjectKind::mesh, solid}, {.name = {}, .type = "lambertian"});
+  ASSERT_EQ(scene.meshes[solid].parts.size(), 2u);
+  EXPECT_EQ(scene.meshes[solid].parts[0].material, "mirror");
+  EXPECT_EQ(scene.meshes[solid].parts[1].material, "solid");
+  EXPECT_EQ(parse_scene(write_scene(scene, folder), "scene.toml"), scene);
+}
+
 }  // namespace
 }  // namespace glimt
