@@ -25,7 +25,7 @@ class ImportedPicture : public testing::TestWithParam<ImportCase> {};
 Scene from_xml(const std::string& name) {
   const fs::path folder = fs::path(testing::TempDir()) / "glimt_import";
   fs::create_directories(folder);
-  fs::copy(GLIMT_TESTS_DIR "/data/import", folder, fs::copy_options::overwrite_existing);
+  fs::copy(GLIMT_TESTS_DIR "/data/import", folder, fs::copy_options::overwrite_existing | fs::copy_options::recursive);
   write_blob(folder);
   const ImportedScene imported = import_scene(folder / (name + ".xml"));
   for (const ImportNote& note : imported.notes) ADD_FAILURE() << text_of(note);

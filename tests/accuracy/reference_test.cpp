@@ -102,9 +102,9 @@ TEST_P(Mitsuba, PictureIsTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Mitsuba,
                          testing::Values(Case{"hexagon", 16}, Case{"hexagon_diffuse", 16}, Case{"hexagon_empty", 16},
-                                         Case{"glossy", 16}, Case{"meshes", 16}),
+                                         Case{"glossy", 16}),
                          [](const auto& scene) { return scene.param.name; });
-INSTANTIATE_TEST_SUITE_P(ScenesLong, Mitsuba, testing::Values(Case{"cornell", 64}),
+INSTANTIATE_TEST_SUITE_P(ScenesLong, Mitsuba, testing::Values(Case{"cornell", 64}, Case{"meshes", 16}),
                          [](const auto& scene) { return scene.param.name; });
 
 }  // namespace
