@@ -83,6 +83,7 @@ struct Builder {
     args.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     args.maxBranchingFactor = width;
     args.sahBlockSize = width;
+    args.minLeafSize = width;
     args.maxLeafSize = width;
     args.bvh = bvh;
     args.primitives = primitives.data();
