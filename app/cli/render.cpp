@@ -7,6 +7,7 @@
 #include "cli/checkpoints.h"
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
+#include "cli/ranks.h"
 #include "cli/render_loop.h"
 #include "cli/render_options.h"
 #include "cli/stats_file.h"
@@ -78,13 +79,13 @@ void check_limits(const RenderOptions& options, const ImageSize& image) {
   }
 }
 
-/// Writes the picture and the file of --stats. Where one cannot be written, prints why and returns false.
-bool write_results(const RenderOptions& options, const Checkpoint& result) {
+/// Writes the picture and --stats. Returns false, and says why, where they cannot be written.
+bool write_results(const RenderOptions& options, const Checkpoint& result, int ranks) {
   const auto& [scene, film, seconds, next_check] = result;
   try {
     const Display display{.dither = options.no_dither ? Dither::off : Dither::on};
     write_image(options.out, film, display, render_metadata(scene, film, seconds));
-    if (!options.stats.empty()) replace_file(options.stats, stats_json(scene, film, options.execution, seconds));
+    if (!options.stats.empty()) replace_file(options.stats, stats_json(scene, film, options.execution, ranks, seconds));
     return true;
   } catch (const ImageFileError& error) {
     std::fprintf(stderr, "%s\n", error.what());
@@ -92,8 +93,24 @@ bool write_results(const RenderOptions& options, const Checkpoint& result) {
   }
 }
 
-int run_render(const RenderOptions& options) {
-  const Scene scene = read_input(options.scene, options.overrides);
+/// What ranks other than the first do. Messages are for the leader to print, but for those of this process alone.
+int help_render(const RenderOptions& options, Ranks& ranks) {
+  if (!ranks.wait_for_begin()) return 0;
+  try {
+    const Scene scene = read_scene(options.scene, options.overrides);
+    check_limits(options, scene.image);
+    // The leader ends the round, and sends all home.
+    for (const int number : {SIGINT, SIGTERM}) std::signal(number, SIG_IGN);
+    ranks.help(compile(scene), options.execution);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rank %d: %s\n", ranks.number(), error.what());
+    Ranks::abort();
+  }
+}
+
+int lead_render(const RenderOptions& options, Ranks& ranks) {
+  const Scene scene = read_scene(options.scene, options.overrides);
   check_limits(options, scene.image);
   const CompiledScene compiled = compile(scene);
   for (const auto& warning : compiled.warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -103,18 +120,22 @@ int run_render(const RenderOptions& options) {
 
   stop_on_signals();
   CheckpointWriter writer(options);
+  ranks.begin();
+  const RenderSamples render = [&](Film& to, int count) {
+    return ranks.render(compiled, to, count, options.execution);
+  };
   const bool show = !options.quiet && isatty(STDERR_FILENO);
   Rendering rendering{.seconds = state.seconds, .next_check = state.next_check};
   {
     ProgressBar bar;
     AfterPass after{.report = {}, .save = [&](const Rendering& now) { writer.write_when_due(state, now); }};
     if (show) after.report = [&bar](const Progress& progress) { bar.show(progress); };
-    rendering = render_to(goal, compiled, film, options.execution, stopped, after, rendering);
+    rendering = render_to(goal, compiled, film, render, stopped, after, rendering);
   }
   state.seconds = rendering.seconds;
 
-  // If one of the two fails, the other is still written.
-  const bool kept = writer.write(state, rendering), written = write_results(options, state);
+  // Each of the two is tried where the other fails.
+  const bool kept = writer.write(state, rendering), written = write_results(options, state, ranks.count());
   if (!kept || !written) return 1;
   const ErrorEstimate estimate = estimate_error(film);
   if (!options.quiet) print_summary(options, film, rendering.seconds, estimate);
@@ -130,6 +151,11 @@ int run_render(const RenderOptions& options) {
     return 1;
   }
   return 0;
+}
+
+int run_render(const RenderOptions& options) {
+  Ranks ranks;
+  return ranks.lead() ? lead_render(options, ranks) : help_render(options, ranks);
 }
 
 }  // namespace

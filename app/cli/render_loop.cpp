@@ -9,9 +9,10 @@
 namespace glimt {
 namespace {
 
-constexpr double pass_seconds = 0.1;
-constexpr int first_check = 8;         // samples from which the estimate can be trusted as a goal
-constexpr double estimate_share = 50;  // rendering time for each second spent on estimates for display
+constexpr double least_pass_seconds = 0.1;
+constexpr double pass_share = 20;      // a pass over what any number of samples takes of it
+constexpr int first_check = 8;         // samples before the estimate can be trusted as a goal
+constexpr double estimate_share = 50;  // rendering time over the time that estimates for display take
 
 double seconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -32,7 +33,7 @@ int samples_in(double seconds, double sample_seconds) {
 
 }  // namespace
 
-Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, const Execution& execution,
+Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, const RenderSamples& render,
                     const std::atomic<bool>& stop, const AfterPass& after, const Rendering& begun) {
   Rendering result = begun;
   result.next_check = std::max(begun.next_check, first_check);
@@ -40,9 +41,9 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
   const double pixels = static_cast<double>(film.width()) * film.height();
   ErrorEstimate estimate;
   double estimate_seconds = 0, estimated_at = 0;
-  const bool unlit = scene.max_radiance == 0;  // black is the exact picture
-  int count = 0;                               // samples in the last pass
-  double sample_seconds = 0;
+  const bool unlit = scene.max_radiance == 0;  // black is right at once
+  int count = 0;                               // of the last pass
+  double sample_seconds = 0, pass_seconds = least_pass_seconds;
   while (true) {
     const double seconds_left = goal.seconds - result.seconds;
     const bool checked = goal.relmse_scaled > 0 && film.samples() >= result.next_check;
@@ -76,7 +77,9 @@ Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, co
             : std::min({samples_in(pass_seconds, sample_seconds), 4 * count, samples_in(seconds_left, sample_seconds)});
     count = std::min({count, goal.samples.count - film.samples(), film.missing().count});
     if (goal.relmse_scaled > 0) count = std::min(count, result.next_check - film.samples());
-    const double pass = seconds_of([&] { render_pass(scene, film, count, execution); });
+    double fixed_seconds = 0;
+    const double pass = seconds_of([&] { fixed_seconds = render(film, count); });
+    pass_seconds = std::max(least_pass_seconds, pass_share * fixed_seconds);
     result.seconds = std::round((result.seconds + pass) * 1e9) / 1e9;
     sample_seconds = pass / count;
   }

@@ -38,10 +38,15 @@ struct AfterPass {
   std::function<void(const Rendering&)> save;  ///< not called after the last pass
 };
 
-/// Adds the goal's samples that the film lacks, in passes of about 0.1 s. Returns when the goal is reached, or after
-/// the pass in which `stop` became true. Where the goal is an error, the number of samples depends neither on time nor
-/// on breaks after which rendering goes on from `begun`.
-Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, const Execution& execution,
+/// Adds the next `count` samples of every pixel to the film. Returns how many seconds of it any number of samples
+/// takes.
+using RenderSamples = std::function<double(Film& film, int count)>;
+
+/// Adds to the film what it lacks of the goal's samples, in passes of about 0.1 s, or 20 times as long
+/// as what any pass takes, until the goal is reached, or after
+/// the pass in which `stop` became true. With an error as goal the number of samples does not depend on time, nor on
+/// breaks after which it goes on from `begun`.
+Rendering render_to(const Goal& goal, const CompiledScene& scene, Film& film, const RenderSamples& render,
                     const std::atomic<bool>& stop, const AfterPass& after, const Rendering& begun = {});
 
 }  // namespace glimt

@@ -28,7 +28,7 @@ struct ValueJson {
 
 }  // namespace
 
-std::string stats_json(const Scene& scene, const Film& film, const Execution& execution, double seconds) {
+std::string stats_json(const Scene& scene, const Film& film, const Execution& execution, int ranks, double seconds) {
   const std::int64_t paths = std::int64_t{film.width()} * film.height() * film.samples();
   Json json;
   json["scene"] = scene.name;
@@ -50,6 +50,7 @@ std::string stats_json(const Scene& scene, const Film& film, const Execution& ex
   json["flux_unseen"] = error.unseen.flux;
   json["threads"] = execution.threads > 0 ? execution.threads : hardware_threads();
   json["lanes"] = execution.lanes == Lanes::scalar ? 1 : native_lane_count();
+  json["ranks"] = ranks;
   json["invalid"] = film.invalid();
   json["saturated"] = film.saturated();
   json["version"] = GLIMT_VERSION;

@@ -7,22 +7,14 @@
 #include <random>
 #include <thread>
 
+#include "app/cli/checkpoint_parts.h"
 #include "app/cli/cli_test.h"
-#include "film/checkpoint.h"
 #include "film/image_file.h"
 
 using namespace glimt;
 namespace fs = std::filesystem;
 
 namespace {
-
-void expect_same_film(const Film& a, const Film& b) {
-  EXPECT_EQ(a.ranges(), b.ranges());
-  EXPECT_EQ(a.scale(), b.scale());
-  for (const int h : {0, 1}) EXPECT_TRUE(std::ranges::equal(a.sums(h), b.sums(h))) << "half " << h;
-}
-
-Film film_in(const fs::path& file) { return read_checkpoint(file).film; }
 
 /// What a picture says of its making, its time left out.
 Metadata making_of(const fs::path& file) {
@@ -221,16 +213,6 @@ TEST_F(Merge, RefusesWhatDoesNotBelongTogether) {
 
 class Breaks : public Checkpoints {
  protected:
-  /// True once `happened()`, false where the program takes a minute.
-  template <class F>
-  static bool wait_until(F happened) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!happened()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-    }
-    return true;
-  }
   /// A part of a.ckpt is in a file that is not renamed yet.
   bool writes_a_checkpoint() const {
     return std::ranges::any_of(fs::directory_iterator(folder), [](const auto& entry) {

@@ -17,13 +17,23 @@ namespace glimt::program {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void become_glimt(const std::vector<std::string>& arguments, const fs::path& folder) {
-  std::vector<char*> argv{const_cast<char*>("glimt")};
-  for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+[[noreturn]] void become_glimt(const std::vector<std::string>& arguments, const fs::path& folder, int ranks = 0) {
+  std::vector<std::string> words{GLIMT_PROGRAM};
+  if (ranks > 0) {
+    words = {GLIMT_MPIRUN, "-n", std::to_string(ranks), GLIMT_PROGRAM};
+    // More ranks than cores, and root in a container.
+    for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
+                             "OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_mpi_yield_when_idle"})
+      setenv(name, "1", 1);
+    setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
+  }
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  if (chdir(folder.c_str()) == 0) execv(GLIMT_PROGRAM, argv.data());
+  if (chdir(folder.c_str()) == 0) execv(argv[0], argv.data());
   _exit(127);
 }
 
@@ -45,7 +55,7 @@ std::string take(const fs::path& file) {
 
 }  // namespace
 
-Running::Running(const std::vector<std::string>& arguments, const fs::path& folder) {
+Running::Running(const std::vector<std::string>& arguments, const fs::path& folder, int ranks) {
   const std::string stem = fs::path(folder).string() + "." + std::to_string(getpid());
   out_ = stem + ".out";
   err_ = stem + ".err";
@@ -55,7 +65,7 @@ Running::Running(const std::vector<std::string>& arguments, const fs::path& fold
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    become_glimt(arguments, folder);
+    become_glimt(arguments, folder, ranks);
   }
 }
 
@@ -67,6 +77,12 @@ Running::~Running() {
 
 void Running::send(int signal) const { kill(process_, signal); }
 
+std::vector<pid_t> Running::children() const {
+  const std::string process = std::to_string(process_);
+  std::ifstream stream("/proc/" + process + "/task/" + process + "/children");
+  return {std::istream_iterator<pid_t>(stream), {}};
+}
+
 Result Running::wait() {
   Result result;
   rusage usage{};
@@ -77,8 +93,8 @@ Result Running::wait() {
   return result;
 }
 
-Result run(const std::vector<std::string>& arguments, const fs::path& folder) {
-  return Running(arguments, folder).wait();
+Result run(const std::vector<std::string>& arguments, const fs::path& folder, int ranks) {
+  return Running(arguments, folder, ranks).wait();
 }
 
 Result run_on_terminal(const std::vector<std::string>& arguments, const fs::path& folder,

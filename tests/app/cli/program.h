@@ -18,12 +18,15 @@ struct Result {
 /// glimt running in `folder` with its output piped. It is killed with this object if it has not ended.
 class Running {
  public:
-  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  /// `ranks`: how many processes of it mpirun starts; 0: without mpirun.
+  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder, int ranks = 0);
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
   void send(int signal) const;
+  /// Processes that it has started.
+  std::vector<pid_t> children() const;
   Result wait();
 
  private:
@@ -32,7 +35,7 @@ class Running {
 };
 
 /// Runs glimt in `folder` with its output piped.
-Result run(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+Result run(const std::vector<std::string>& arguments, const std::filesystem::path& folder, int ranks = 0);
 
 /// Runs glimt in `folder` on a terminal of 100 columns; `out` is what the terminal got. If `interrupt_at` is not empty,
 /// presses Ctrl-C once this text was shown.
