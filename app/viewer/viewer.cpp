@@ -148,7 +148,8 @@ void remember(const Window& window, const ViewerState& state) {
 }
 
 void run(const std::filesystem::path& scene_file) {
-  ImportedScene opened = read_or_import(scene_file);
+  const bool checkpoint = scene_file.extension() == ".ckpt";
+  Scene scene = checkpoint ? read_checkpoint(scene_file).scene : read_scene(scene_file);
   std::string note;
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;
@@ -157,8 +158,10 @@ void run(const std::filesystem::path& scene_file) {
   Controller controller(
       std::move(opened.scene), scene_file, [] { glfwPostEmptyEvent(); }, {}, {}, room);
   controller.recall(settings.display, settings.chart, settings.folder, !settings.hint_seen, note, settings.drag_view);
+  if (const auto folder = autosave_folder(); !folder.empty()) controller.autosave(folder);
   const Window window(settings.width, settings.height);
   Inbox in;
+  if (checkpoint) in.edits.open = scene_file;
   set_callbacks(window.handle(), in);
   Screen screen;
   in.screen = &screen;

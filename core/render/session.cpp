@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "film/statistics.h"
+#include "scene/file/scene_file.h"
 
 namespace glimt {
 
@@ -53,8 +54,9 @@ struct Session::Job {
   std::shared_ptr<const CompiledScene>
       preview;  ///< the same at a smaller size for the preview; null if the image is small enough
   Scene scene;
-  std::uint64_t version = 0;  ///< a new version means another film
-  bool from_zero = false;     ///< even if a film of the scene is kept
+  std::uint64_t version = 0;                ///< a new one means another film
+  bool from_zero = false;                   ///< whatever is kept
+  std::shared_ptr<const Checkpoint> begun;  ///< what to go on from, whatever is kept; or null
 };
 
 Session::Session(Execution execution, std::function<void()> on_frame, std::size_t kept_bytes)
@@ -92,12 +94,49 @@ std::uint64_t Session::post(const Scene& scene) {
   return job->version;
 }
 
+std::uint64_t Session::post(std::shared_ptr<const Checkpoint> begun) {
+  const auto last = last_job();
+  auto job = std::make_shared<Job>();
+  job->compiled = std::make_shared<const CompiledScene>(compile(begun->scene));
+  const Film empty = make_film(*job->compiled);
+  if (empty.scale() != begun->film.scale() || empty.by_chance().size() != begun->film.by_chance().size() ||
+      empty.width() != begun->film.width() || empty.height() != begun->film.height())
+    throw SceneError("the checkpoint counts light in other units than its scene");
+  job->version = last ? last->version + 1 : 1;
+  job->scene = begun->scene;
+  job->begun = std::move(begun);
+  const std::uint64_t version = job->version;
+  start(std::move(job), true);
+  return version;
+}
+
+void Session::keep(double every, std::function<void(const Checkpoint&)> write) {
+  {
+    const std::lock_guard lock(mutex_);
+    every_ = std::chrono::duration<double>(every);
+    due_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(every_);
+    write_ = std::move(write);
+  }
+  wake_.notify_all();
+}
+
+void Session::keep_now(const Job& job, Accumulation& now) {
+  const auto start = Clock::now();
+  Checkpoint checkpoint{job.scene, std::move(now.film), now.seconds};
+  write_(checkpoint);
+  now.film = std::move(checkpoint.film);
+  // However large the film and slow the disk, hardly any time goes into this.
+  const auto pause = std::max(every_, 100 * std::chrono::duration<double>(Clock::now() - start));
+  due_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(pause);
+}
+
 void Session::restart() {
   const auto last = last_job();
   if (!last) return;
   auto job = std::make_shared<Job>(*last);
   ++job->version;
   job->from_zero = true;
+  job->begun.reset();
   start(job, true);
 }
 
@@ -153,7 +192,8 @@ void Session::work() {
   setpriority(PRIO_PROCESS, 0, 10);
   std::shared_ptr<const Job> job;
   Accumulation now;
-  bool shown = false, shown_finished = false, shown_error = false;  // whether the newest frame shows `now`, and how
+  bool shown = false, shown_finished = false, shown_error = false;  // what the newest frame holds of `now`
+  bool kept_it = true;                                              // what `now` holds
   for (;;) {
     std::shared_ptr<const Job> before = job;
     bool more = false, with_error = false;
@@ -162,12 +202,25 @@ void Session::work() {
       const auto unfinished = [&] {
         return now.film.samples() == 0 || now.pass > 0 || (!paused_ && !finished(job_->scene.render, now));
       };
-      wake_.wait(lock, [&] {
+      const auto called = [&] {
         if (quit_ || !job_) return quit_;
         return !job || job_->version != job->version || !shown || unfinished() ||
                finished(job_->scene.render, now) != shown_finished || (error_wanted_ && !shown_error);
-      });
+      };
+      while (!called()) {
+        if (!write_ || kept_it || now.pass > 0)
+          wake_.wait(lock);
+        else if (wake_.wait_until(lock, due_) == std::cv_status::timeout)
+          break;
+      }
       if (quit_) return;
+      // A cancelled pass is in the film in part.
+      if (write_ && !kept_it && now.pass == 0 && job_->version == job->version && Clock::now() >= due_) {
+        lock.unlock();
+        keep_now(*job, now);
+        kept_it = true;
+        continue;
+      }
       job = job_;
       cancel_ = false;
       with_error = error_wanted_;
@@ -178,6 +231,8 @@ void Session::work() {
       if (before && !(job->from_zero && again)) kept_.put(before->scene, std::move(now));
       auto kept = kept_.take(job->scene);
       if (job->from_zero) kept.reset();
+      if (job->begun) kept = Accumulation{.film = job->begun->film, .seconds = job->begun->seconds, .progress = {}};
+      kept_it = true;
       shown = shown_finished = shown_error = false;
       now = {};
       if (job->preview && !(kept && kept->pass == 0)) {
@@ -193,6 +248,7 @@ void Session::work() {
     }
     if (more) render_some(*job, now);
     if (now.pass > 0 || unwanted(*job)) continue;
+    kept_it = kept_it && !more;
     shown = true;
     shown_finished = finished(job->scene.render, now);
     shown_error = with_error;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
 
+#include "film/checkpoint.h"
 #include "film/film.h"
 #include "film/statistics.h"
 #include "render/film_cache.h"
@@ -43,6 +45,11 @@ class Session {
   /// with the samples there are. A scene whose film is still kept goes on with that film. Throws SceneError for a scene
   /// that cannot be rendered, and then keeps the last one.
   std::uint64_t post(const Scene& scene);
+  /// The same with samples that were taken elsewhere, to go on from. Throws SceneError too where they are not of its
+  /// scene.
+  std::uint64_t post(std::shared_ptr<const Checkpoint> begun);
+  /// From now on `write` gets what there is, on the worker's thread: every so many seconds, if anything is new.
+  void keep(double every, std::function<void(const Checkpoint&)> write);
   /// Begins again at zero samples.
   void restart();
   /// A paused session uses no CPU.
@@ -60,6 +67,7 @@ class Session {
   std::shared_ptr<const Job> last_job() const;
   void start(std::shared_ptr<const Job> job, bool cancel);
   void work();
+  void keep_now(const Job& job, Accumulation& accumulation);
   bool superseded_soon(const Job& job);
   /// Whether the next edit has come, whose preview is more urgent than another image of this job.
   bool unwanted(const Job& job) const;
@@ -78,7 +86,10 @@ class Session {
   bool paused_ = false;
   bool error_wanted_ = false;
   bool quit_ = false;
-  std::atomic<bool> cancel_{false};  ///< the running pass is no longer of use
+  std::function<void(const Checkpoint&)> write_;  ///< see keep()
+  std::chrono::duration<double> every_{};
+  std::chrono::steady_clock::time_point due_;  ///< no sooner is it called; of the worker but for the first time
+  std::atomic<bool> cancel_{false};            ///< the running pass is of no use any more
   std::thread worker_;
 };
 

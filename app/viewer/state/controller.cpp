@@ -30,6 +30,7 @@ std::string told_of(const std::vector<ImportNote>& notes) {
 }
 
 bool is_picture(const fs::path& file) { return file.extension() == ".png" || file.extension() == ".exr"; }
+bool is_checkpoint(const fs::path& file) { return file.extension() == ".ckpt"; }
 
 /// The file's name without its ending, and without the number of a snapshot.
 std::string stem_of(const fs::path& file) {
@@ -67,6 +68,26 @@ void Controller::recall(const Display& display, const ChartView& chart, fs::path
   if (!folder.empty()) state_.folder = std::move(folder);
   state_.hint = show_hint;
   if (!note.empty()) state_.message = {note, true};
+}
+
+void Controller::autosave(const fs::path& folder, double every) {
+  try {
+    autosave_.emplace(folder);
+    session_.keep(every, [file = autosave_->file()](const Checkpoint& checkpoint) {
+      try {
+        write_checkpoint(file, checkpoint);
+      } catch (const ImageFileError&) {  // a full disk must not disturb the window
+      }
+    });
+    if (!autosave_->left_behind()) return;
+    const Checkpoint checkpoint = read_checkpoint(*autosave_->left_behind());
+    state_.left_behind = {checkpoint.scene.name, checkpoint.film.samples()};
+  } catch (const CheckpointError& error) {
+    autosave_->forget_left_behind();
+    state_.message = {error.what(), true};
+  } catch (const std::exception& error) {
+    state_.message = {error.what(), true};
+  }
 }
 
 bool Controller::poll() {
@@ -112,6 +133,8 @@ void Controller::apply(const Edits& edits) {
     state_.fits_window = *edits.fits_window;
     state_.room = next_room_;
   }
+  const bool followed = state_.following;
+  if (edits.scene || edits.goal || edits.toggle_pause || edits.restart) stop_following();
   if (edits.scene || edits.goal) {
     Document after = now();
     if (edits.scene)
@@ -128,7 +151,12 @@ void Controller::apply(const Edits& edits) {
   if (edits.redo) show(history_.redo(now()));
   if (edits.open) open(*edits.open);
   if (edits.save) save(*edits.save);
-  if (edits.toggle_pause) session_.set_paused(!session_.paused());
+  if (edits.recover) recover();
+  if ((edits.recover || edits.forget_left_behind) && autosave_) {
+    autosave_->forget_left_behind();
+    state_.left_behind.reset();
+  }
+  if (edits.toggle_pause && !followed) session_.set_paused(!session_.paused());
   if (edits.restart) session_.restart();
   if (edits.snapshot) want_snapshot(false);
   if (edits.snapshot_exr) want_snapshot(true);
@@ -185,16 +213,17 @@ bool Controller::fit_to_room() {
 
 void Controller::show(const std::optional<Document>& document) {
   if (!document) return;
+  stop_following();
   show(*document);
   if (document->file != state_.file) set_file(document->file);
 }
 
-void Controller::show(const Document& document, std::uint64_t gesture) {
+void Controller::show(const Document& document, std::uint64_t gesture, std::shared_ptr<const Checkpoint> begun) {
   const auto size = state_.fits_window ? std::optional(state_.room) : std::nullopt;
   auto scene = std::make_shared<const Scene>(as_shown(*document.scene, document.goal, size));
   state_.filed = document.scene;
-  if (posted_scene_ && *scene == *posted_scene_ && document.goal == state_.goal) return;
-  state_.version = session_.post(*scene);
+  if (!begun && posted_scene_ && *scene == *posted_scene_ && document.goal == state_.goal) return;
+  state_.version = begun ? session_.post(std::move(begun)) : session_.post(*scene);
   state_.compiled = session_.compiled();
   state_.scene = *scene;
   state_.goal = document.goal;
@@ -212,18 +241,22 @@ void Controller::set_file(fs::path file) {
   if (file.has_parent_path()) state_.folder = file.parent_path();
   if (is_picture(file) || is_importable(file)) file.clear();
   watch_.watch(file);
+  state_.following = is_checkpoint(file);
+  followed_ = state_.following ? std::exchange(file, {}) : fs::path();
   state_.file = std::move(file);
 }
 
 void Controller::open(const fs::path& file) {
   try {
-    if (is_picture(file))
+    if (is_checkpoint(file))
+      follow(file);
+    else if (is_picture(file))
       open_picture(file);
     else
       open_scene(file);
     state_.opened_camera = state_.scene.camera;
     state_.opened_size = state_.filed->image;
-    session_.set_paused(false);
+    session_.set_paused(state_.following);
   } catch (const std::exception& error) {
     state_.message = {error.what(), true};
   }
@@ -257,6 +290,50 @@ void Controller::open_picture(const fs::path& file) {
   state_.message = {"Opened the scene in " + file.filename().string()};
 }
 
+Document Controller::open_checkpoint(const fs::path& file) {
+  Checkpoint checkpoint = read_checkpoint(file);
+  if (checkpoint.scene.render.spp == max_spp) checkpoint.scene.render.spp = Settings{}.spp;  // a window's has no end
+  Document before = now();
+  const Document document{
+      std::make_shared<const Scene>(checkpoint.scene), {}, {StopAt::never, state_.goal.samples, state_.goal.error}};
+  checkpoint.scene = as_shown(checkpoint.scene, document.goal, {});
+  const bool fitted = std::exchange(state_.fits_window, false);
+  try {
+    show(document, 0, std::make_shared<const Checkpoint>(std::move(checkpoint)));
+  } catch (...) {
+    state_.fits_window = fitted;
+    throw;
+  }
+  return before;
+}
+
+void Controller::follow(const fs::path& file) {
+  history_.edited(open_checkpoint(file), 0);
+  set_file(file);
+  state_.message = {"Follows " + file.filename().string() + " as it grows. Space goes on from what there is"};
+}
+
+void Controller::stop_following() {
+  if (!state_.following) return;
+  state_.following = false;
+  watch_.watch({});
+  session_.set_paused(false);
+}
+
+void Controller::recover() {
+  if (!state_.left_behind) return;
+  try {
+    history_.edited(open_checkpoint(*autosave_->left_behind()), 0);
+    set_file({});
+    state_.opened_camera = state_.scene.camera;
+    state_.opened_size = state_.filed->image;
+    session_.set_paused(false);
+    state_.message = {"Goes on with " + state_.left_behind->scene};
+  } catch (const std::exception& error) {
+    state_.message = {error.what(), true};
+  }
+}
+
 void Controller::save(const fs::path& file) {
   try {
     replace_file(file, write_scene(*state_.filed, fs::absolute(file).parent_path()));
@@ -269,6 +346,10 @@ void Controller::save(const fs::path& file) {
 
 void Controller::reload() {
   try {
+    if (state_.following) {
+      open_checkpoint(followed_);
+      return;
+    }
     edit({std::make_shared<const Scene>(read_scene(state_.file)), state_.file, state_.goal});
     state_.opened_camera = state_.scene.camera;
     state_.message = {"Read " + state_.file.filename().string() + " again, which has changed"};

@@ -5,10 +5,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/session.h"
+#include "viewer/state/autosave.h"
 #include "viewer/state/file_watch.h"
 #include "viewer/state/history.h"
 #include "viewer/state/snapshot.h"
@@ -31,8 +33,9 @@ class Controller {
   /// Takes what the window remembers from its last start. Call it before the first edits.
   void recall(const Display& display, const ChartView& chart, std::filesystem::path folder, bool show_hint,
               const std::string& note, DragView drag_view = DragView::automatic);
-  /// Takes in finished frames, snapshots and background work, and a scene file that has changed on disk. Returns true
-  /// if there was news.
+  /// Keeps scene and samples in this folder every so many seconds, and offers what a crashed program has left there.
+  void autosave(const std::filesystem::path& folder, double every = 30);
+  /// Takes in finished frames and snapshots, and a scene file that has changed on disk; true where there was one.
   bool poll();
   /// Carries out edits. An edit that is refused, or a file that cannot be read, changes nothing; the message says why.
   void apply(const Edits& edits);
@@ -43,7 +46,8 @@ class Controller {
   /// The scene that the frame shows.
   Posted::const_iterator shown() const;
   Document now() const;
-  void show(const Document& document, std::uint64_t gesture = 0);
+  /// With `begun`, which is of the document's scene as shown, from its samples on.
+  void show(const Document& document, std::uint64_t gesture = 0, std::shared_ptr<const Checkpoint> begun = {});
   void show(const std::optional<Document>& document);
   void edit(const Document& after, std::uint64_t gesture = 0);
   /// Gives the picture the size of its room once that has not changed for a while. Returns true if it did.
@@ -52,6 +56,11 @@ class Controller {
   void open(const std::filesystem::path& file);
   void open_scene(const std::filesystem::path& file);
   void open_picture(const std::filesystem::path& file);
+  /// Shows its samples and returns what there was before.
+  Document open_checkpoint(const std::filesystem::path& file);
+  void follow(const std::filesystem::path& file);
+  void stop_following();
+  void recover();
   void save(const std::filesystem::path& file);
   void reload();
   void want_snapshot(bool radiance);
@@ -69,9 +78,11 @@ class Controller {
   std::vector<Snapshot> wanted_;  ///< taken from the next frame that holds what they show
   SnapshotWriter snapshots_;
   FileWatch watch_;
+  std::optional<Autosave> autosave_;  ///< lives longer than the session, which writes it
   Session session_;
   Charting charting_;
-  bool resume_ = false;  ///< go on rendering once the chart no longer needs the machine
+  std::filesystem::path followed_;  ///< the checkpoint that is followed
+  bool resume_ = false;             ///< once the chart needs the machine no more
 };
 
 }  // namespace glimt

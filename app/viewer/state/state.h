@@ -23,7 +23,13 @@ struct Message {
   bool error = false;
 };
 
-/// All that the panels show. Panels only read it; the controller changes it.
+/// What a window has left that ended without being closed.
+struct LeftBehind {
+  std::string scene;  ///< its name
+  int samples = 0;    ///< per pixel
+};
+
+/// All that the panels show. They read it; the controller alone changes it.
 struct ViewerState {
   Scene scene;                                    ///< as edited and rendered; the frame may still show an older one
   std::shared_ptr<const Scene> filed;             ///< the same as a file holds it, with the file's own target
@@ -46,8 +52,10 @@ struct ViewerState {
   Compare compare;
   bool inspect = false;  ///< show the numbers of the pixel under the mouse
   DragView drag_view = DragView::automatic;
-  bool enclosed = false;  ///< the eye is in a closed room
-  bool black = false;     ///< the whole frame is, and it has enough samples to say so
+  bool enclosed = false;                  ///< the eye is in a closed room
+  std::optional<LeftBehind> left_behind;  ///< to go on with, or to forget
+  bool following = false;                 ///< the picture is that of a checkpoint which another program writes
+  bool black = false;                     ///< all of the frame is, and it has enough samples to say so
 };
 
 /// Whether a drag turns the view about the eye (else it orbits).
@@ -70,9 +78,10 @@ struct Edits {
   std::optional<ImageSize> room;    ///< free space for the picture, as laid out now
   std::optional<Display> display;
   std::optional<std::optional<ObjectId>> select;  ///< an object, or none
-  std::optional<std::filesystem::path> open;      ///< a scene file, or a picture that glimt has written
-  std::optional<std::filesystem::path> save;      ///< a scene file to write; an existing one is replaced
+  std::optional<std::filesystem::path> open;      ///< a scene file, or a picture or checkpoint of glimt
+  std::optional<std::filesystem::path> save;      ///< a scene file to write, over one that is there
   std::optional<std::filesystem::path> folder;
+  bool recover = false, forget_left_behind = false;
   bool toggle_pause = false;
   bool restart = false;
   bool undo = false, redo = false;

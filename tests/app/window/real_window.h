@@ -92,7 +92,8 @@ class WindowTest : public ::testing::Test {
     setenv("GLIMT_WIDGET_LOG", "widgets", 1);
     setenv("GLIMT_FRAME_LOG", "frames", 1);
     setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
-    // The pictures keep the small sizes of the tests' scenes, which render quickly.
+    setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+    // Small pictures, as the scenes of the tests have them, are soon rendered.
     fs::create_directories("config/glimt");
     std::ofstream("config/glimt/window.toml") << "picture_fits_window = false\n";
     unsetenv("WAYLAND_DISPLAY");
