@@ -60,19 +60,13 @@ void warn_of_counters(const Film& film) {
                static_cast<unsigned long long>(film.invalid()), static_cast<unsigned long long>(film.saturated()));
 }
 
-/// Throws BadInput where the film and its picture do not fit into memory, or the threads cannot be started. The system
-/// itself would grant the memory, and kill the program later, when it writes to it.
+/// Throws BadInput where the film and its picture do not fit into memory, or the threads cannot be had.
 void check_limits(const RenderOptions& options, const ImageSize& image) {
-  char text[128];
-  const std::uint64_t pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  const std::uint64_t needed = Film::pixel_bytes * pixels + bytes_to_write(options.out, image.width, image.height);
-  if (const std::uint64_t free = free_memory(); needed > free) {
-    std::snprintf(text, sizeof text, "an image of %dx%d takes %.2f GB of memory, and %.2f GB are free", image.width,
-                  image.height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9);
-    throw BadInput(text);
-  }
+  const std::string obstacle = memory_obstacle(image, bytes_to_write(options.out, image.width, image.height));
+  if (!obstacle.empty()) throw BadInput(obstacle);
   const int threads = options.execution.threads > 0 ? options.execution.threads : hardware_threads();
   if (const int startable = startable_threads(threads); startable < threads) {
+    char text[128];
     std::snprintf(text, sizeof text, "of %d threads only %d can be started here: give --threads a smaller number",
                   threads, startable);
     throw BadInput(text);

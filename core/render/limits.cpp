@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <latch>
@@ -13,6 +14,8 @@
 #include <string_view>
 #include <thread>
 #include <vector>
+
+#include "film/film.h"
 
 namespace glimt {
 namespace fs = std::filesystem;
@@ -88,6 +91,16 @@ std::uint64_t left_of_address_space(const fs::path& root) {
 std::uint64_t free_memory(const fs::path& root) {
   const auto machine = number_after(root / "proc/meminfo", "MemAvailable:");
   return std::min({machine ? *machine * 1024 : unlimited, left_in_groups(root), left_of_address_space(root)});
+}
+
+std::string memory_obstacle(const ImageSize& image, std::uint64_t beside_film) {
+  const std::uint64_t pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  const std::uint64_t needed = Film::pixel_bytes * pixels + beside_film, free = free_memory();
+  if (needed <= free) return {};
+  char text[128];
+  std::snprintf(text, sizeof text, "an image of %dx%d takes %.2f GB of memory, and %.2f GB are free", image.width,
+                image.height, static_cast<double>(needed) / 1e9, static_cast<double>(free) / 1e9);
+  return text;
 }
 
 int startable_threads(int wanted) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "film/statistics.h"
+#include "render/limits.h"
 #include "scene/file/scene_file.h"
 
 namespace glimt {
@@ -47,6 +48,15 @@ bool finished(const Settings& settings, const Accumulation& accumulation) {
   return accumulation.pass == 0 && accumulation.film.samples() >= target_samples(settings, accumulation);
 }
 
+/// Throws SceneError where a large image does not fit; small ones need no look.
+void check_memory(const ImageSize& image) {
+  const std::uint64_t pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  if (pixels < (1u << 22)) return;
+  constexpr std::uint64_t frame_bytes = 2 * 3 * sizeof(float);  // of a pixel: its mean and its error
+  const std::string obstacle = memory_obstacle(image, 2 * frame_bytes * pixels);  // the next frame and the shown one
+  if (!obstacle.empty()) throw SceneError(obstacle);
+}
+
 }  // namespace
 
 struct Session::Job {
@@ -73,6 +83,7 @@ Session::~Session() {
 }
 
 std::uint64_t Session::post(const Scene& scene) {
+  check_memory(scene.image);
   const auto last = last_job();
   auto job = std::make_shared<Job>();
   Scene same = scene;
