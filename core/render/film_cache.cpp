@@ -20,6 +20,7 @@ void FilmCache::put(const Scene& scene, Accumulation accumulation) {
   const Film& film = accumulation.film;
   if (std::int64_t{film.width()} * film.height() * film.samples() < few_paths) return;
   take(scene);
+  accumulation.whole.reset();
   entries_.push_front({key_of(scene), std::move(accumulation)});
   while (bytes() > max_bytes_) entries_.pop_back();
 }
@@ -34,7 +35,7 @@ std::optional<Accumulation> FilmCache::take(const Scene& scene) {
 
 std::size_t FilmCache::bytes() const {
   std::size_t sum = 0;
-  for (const Entry& entry : entries_) sum += entry.accumulation.film.bytes();
+  for (const Entry& entry : entries_) sum += entry.accumulation.film.bytes() + entry.accumulation.first.bytes();
   return sum;
 }
 

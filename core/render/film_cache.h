@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <list>
+#include <memory>
 #include <optional>
 
+#include "film/continuation.h"
 #include "film/film.h"
 #include "film/statistics.h"
 #include "render/render.h"
@@ -18,6 +20,8 @@ struct Accumulation {
   ErrorEstimate estimate{};  ///< error of the film's samples
   int pass = 0;              ///< samples per pixel of a cancelled pass, of which the film holds a part; 0: none
   PassProgress progress;     ///< of that pass
+  FirstSamples first{};      ///< of the film
+  std::shared_ptr<const Film> whole{};  ///< the film a while ago, without a part of a pass; null below enough samples
 };
 
 /// Recent films, by scene and settings without the target. Where they take too much memory, the film that was not used

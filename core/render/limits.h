@@ -14,8 +14,8 @@ namespace glimt {
 /// nothing is known. `root` is where the system's files are.
 std::uint64_t free_memory(const std::filesystem::path& root = "/");
 
-/// Why the film of such an image, and so many bytes beside it, do not fit into free_memory(), for people; empty where they
-/// do. The system would hand the memory out, and end the program when it writes to it, an hour later at worst.
+/// Why the film of such an image, and so many bytes beside it, do not fit into free_memory(), for people; empty where
+/// they do. The system would hand the memory out, and end the program when it writes to it, an hour later at worst.
 std::string memory_obstacle(const ImageSize& image, std::uint64_t beside_film);
 
 /// How many of so many threads can run at once. Starts them and ends them again, some microseconds for each.

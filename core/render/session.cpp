@@ -33,6 +33,11 @@ int preview_step(const ImageSize& image) {
   return step;
 }
 
+Scene coarse(Scene scene, int step) {
+  scene.image = {scene.image.width / step, scene.image.height / step};
+  return scene;
+}
+
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Samples per pixel at which the target should be reached, by the present estimate.
@@ -52,7 +57,7 @@ bool finished(const Settings& settings, const Accumulation& accumulation) {
 void check_memory(const ImageSize& image) {
   const std::uint64_t pixels = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   if (pixels < (1u << 22)) return;
-  constexpr std::uint64_t frame_bytes = 2 * 3 * sizeof(float);  // of a pixel: its mean and its error
+  constexpr std::uint64_t frame_bytes = 2 * 3 * sizeof(float);                    // of a pixel: its mean and its error
   const std::string obstacle = memory_obstacle(image, 2 * frame_bytes * pixels);  // the next frame and the shown one
   if (!obstacle.empty()) throw SceneError(obstacle);
 }
@@ -93,11 +98,8 @@ std::uint64_t Session::post(const Scene& scene) {
     *job = *last;
   } else {
     job->compiled = std::make_shared<const CompiledScene>(compile(scene));
-    if (const int step = preview_step(scene.image); step > 1) {
-      Scene coarse = scene;
-      coarse.image = {scene.image.width / step, scene.image.height / step};
-      job->preview = std::make_shared<const CompiledScene>(compile(coarse));
-    }
+    if (const int step = preview_step(scene.image); step > 1)
+      job->preview = std::make_shared<const CompiledScene>(compile(coarse(scene, step)));
     job->version = last ? last->version + 1 : 1;
   }
   job->scene = scene;
@@ -239,6 +241,9 @@ void Session::work() {
     }
     if (!before || before->version != job->version) {
       const bool again = before && before->scene == job->scene;
+      if (before) anchor_.leave(before->scene, now);
+      anchor_.show(job->scene, job->from_zero || job->begun);
+      picture_.reset();
       if (before && !(job->from_zero && again)) kept_.put(before->scene, std::move(now));
       auto kept = kept_.take(job->scene);
       if (job->from_zero) kept.reset();
@@ -279,7 +284,7 @@ void Session::render_some(const Job& job, Accumulation& now) {
   if (now.pass == 0) {
     const double per_sample = samples > 0 ? now.seconds / samples : pass_seconds;
     const int left = target_samples(job.scene.render, now) - samples;
-    now.pass = std::clamp(static_cast<int>(pass_seconds / per_sample), 1, std::max(left, 1));
+    now.pass = anchor_.pass(now, std::clamp(static_cast<int>(pass_seconds / per_sample), 1, std::max(left, 1)));
   }
   // The first image of a small size is not cancelled, so that something is shown however fast edits come. For a large
   // size the preview does that.
@@ -290,11 +295,14 @@ void Session::render_some(const Job& job, Accumulation& now) {
   now.seconds += seconds_since(start);
   if (!done) return;
   now.pass = 0;
-  if (!unwanted(job)) now.estimate = estimate_error(now.film);
+  Anchor::look_at(now);
+  if (unwanted(job)) return;
+  picture_ = anchor_.picture(now);
+  now.estimate = estimate_error(picture_ ? *picture_ : now.film);
 }
 
 void Session::show(const Job& job, const Accumulation& now, bool with_error) {
-  const Film& film = now.film;
+  const Film& film = picture_ ? *picture_ : now.film;
   auto frame = std::make_shared<Frame>();
   frame->version = job.version;
   frame->size = {film.width(), film.height()};
@@ -305,16 +313,25 @@ void Session::show(const Job& job, const Accumulation& now, bool with_error) {
   frame->paths_per_second = static_cast<double>(film.samples()) * film.width() * film.height() / now.seconds;
   frame->estimate = now.estimate;
   frame->finished = finished(job.scene.render, now);
+  frame->continued_from = anchor_.continued_from();
   show(std::move(frame));
 }
 
 void Session::show_preview(const Job& job) {
-  Film film = make_film(*job.preview);
-  render_pass(*job.preview, film, 1, execution_);
+  const auto render_one = [this](const CompiledScene& scene) {
+    Film film = make_film(scene);
+    render_pass(scene, film, 1, execution_);
+    return film.mean();
+  };
+  const int step = preview_step(job.scene.image);
   auto frame = std::make_shared<Frame>();
   frame->version = job.version;
   frame->size = job.scene.image;
-  frame->mean = film.mean();
+  frame->mean = render_one(*job.preview);
+  // An edit is mostly small beside the picture, and so is the noise of the difference.
+  const auto picture =
+      anchor_.preview(frame->mean, step, [&](const Scene& scene) { return render_one(compile(coarse(scene, step))); });
+  if (picture) frame->mean = *picture;
   show(std::move(frame));
 }
 

@@ -5,11 +5,13 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "film/checkpoint.h"
 #include "film/film.h"
 #include "film/statistics.h"
+#include "render/anchor.h"
 #include "render/film_cache.h"
 #include "render/render.h"
 #include "scene/scene.h"
@@ -27,6 +29,7 @@ struct Frame {
   double paths_per_second = 0;  ///< over the same time
   ErrorEstimate estimate;       ///< error of `mean`; infinite below two samples
   bool finished = false;        ///< the target is reached
+  int continued_from = 0;       ///< samples of the scene before the edit, which the picture goes on from; 0: of none
 };
 
 /// A worker that keeps adding samples while a window edits the scene. The window's thread may call all functions; none
@@ -78,8 +81,10 @@ class Session {
 
   Execution execution_;
   std::function<void()> on_frame_;
-  FilmCache kept_;            ///< used by the worker only
-  mutable std::mutex mutex_;  ///< held for assignments only, never while rendering or copying pixels
+  FilmCache kept_;               ///< of the worker
+  Anchor anchor_;                ///< of the worker
+  std::optional<Film> picture_;  ///< of the worker: what is shown in place of the film
+  mutable std::mutex mutex_;     ///< held for assignments only, never while rendering, copying pixels or uploading
   std::condition_variable wake_;
   std::shared_ptr<const Job> job_;      ///< what to render
   std::shared_ptr<const Frame> frame_;  ///< what to show
