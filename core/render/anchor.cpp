@@ -41,7 +41,8 @@ void Anchor::leave(const Scene& scene, const Accumulation& now) {
 void Anchor::show(const Scene& scene, bool from_zero) {
   correction_.reset();
   corrected_at_ = 0;
-  used_ = film_ && !from_zero && goes_on(scene_, scene) && scene_ != scene;
+  const bool counted = scene.render.target_error == 0 && scene.render.spp < max_spp;
+  used_ = film_ && !from_zero && !counted && goes_on(scene_, scene) && scene_ != scene;
 }
 
 std::optional<Film> Anchor::picture(const Accumulation& now) {

@@ -20,7 +20,8 @@ class Anchor {
 
   /// The scene is not shown any more: it becomes the anchor if it has as many samples as the one there is.
   void leave(const Scene& scene, const Accumulation& accumulation);
-  /// Another scene is shown from now on; it goes on from the anchor if camera, size and settings are the same.
+  /// Another scene is shown from now on; it goes on from the anchor if camera, size and settings are the same. Not
+  /// `from_zero`, nor where a person has asked for so many samples: that is the picture which the command line makes.
   void show(const Scene& scene, bool from_zero);
 
   /// The picture to show: the film of the scene that is shown, corrected by the anchor once it can be; else null.
@@ -33,9 +34,7 @@ class Anchor {
     if (small_.rgb.empty()) small_ = render(scene_);
     return preview_from(now, step);
   }
-  /// Samples of the anchor, where the picture goes on from it; else 0.
-  int samples() const { return used_ ? film_->samples() : 0; }
-  /// Whether picture() has gone on from it yet.
+  /// Samples of the anchor, where picture() has gone on from it; else 0.
   int continued_from() const { return correction_ ? film_->samples() : 0; }
 
  private:

@@ -89,9 +89,8 @@ std::string error_text(const FramePtr& frame, const Image& reference) {
 int main(int argc, char** argv) {
   const std::string file = argc > 1 ? argv[1] : GLIMT_SCENES "/hexagon.toml";
   const int samples = argc > 2 ? std::atoi(argv[2]) : 4096, reference_samples = argc > 3 ? std::atoi(argv[3]) : 4096;
-  constexpr int endless = 1 << 24;
   Session session;
-  const Scene before = edited(file, {"", {}}, endless);
+  const Scene before = edited(file, {"", {}}, max_spp);
   wait_for_samples(session, session.post(before), samples);
   session.set_paused(true);
   std::printf("%s, %dx%d, from a picture of %d samples per pixel; relmse999 (* is the preview)\n", file.c_str(),
@@ -99,7 +98,7 @@ int main(int argc, char** argv) {
   std::printf("%-24s %10s %10s %10s %6s | %10s %10s %10s %6s\n", "", "first", "0.1 s", "0.4 s", "spp", "anew first",
               "0.1 s", "0.4 s", "spp");
   for (const Edit& edit : edits) {
-    const Scene after = edited(file, edit, endless);
+    const Scene after = edited(file, edit, max_spp);
     const CompiledScene compiled = compile(after);
     Film film = make_film(compiled);
     render_pass(compiled, film, reference_samples, {});

@@ -149,9 +149,13 @@ void draw_progress_panel(const ViewerState& state, Edits& edits) {
   const Settings& settings = state.scene.render;
   const bool ends = has_target(settings), by_error = settings.target_error > 0;
   const double share = share_done(settings, frame);
-  const std::string of = ends && !by_error ? " of " + std::to_string(settings.spp) : "";
+  std::string of = ends && !by_error ? " of " + std::to_string(settings.spp) : "";
+  if (frame.continued_from > 0) of += " on " + std::to_string(frame.continued_from);
   text_row("Samples / pixel", std::to_string(frame.samples) + of,
-           "Paths traced so far through each pixel. Four times as many halve the noise.");
+           std::string("Paths traced so far through each pixel. Four times as many halve the noise.") +
+               (frame.continued_from > 0 ? "\n\nThe picture goes on from the one before the edit: what the same paths "
+                                           "find in both scenes tells the difference. Restart begins anew."
+                                         : ""));
   const std::string aim = by_error ? number(" of %.2g relMSE", settings.target_error) : " relMSE";
   text_row("Estimated error",
            std::isfinite(frame.estimate.relmse_scaled) && frame.samples > 1

@@ -16,7 +16,8 @@ namespace {
 constexpr int reference_seed = 1'618'033'988;
 
 RunPoint point_of(const Frame& frame) {
-  return {frame.samples, frame.seconds, frame.estimate.relmse_scaled, {}, frame.estimate.is_bound()};
+  return {frame.samples,       frame.seconds, frame.estimate.relmse_scaled, {}, frame.estimate.is_bound(),
+          frame.continued_from};
 }
 
 /// The scene with default settings, which render all of its light.

@@ -71,6 +71,7 @@ std::optional<double> place_of(const Curve& curve, ErrorKind kind, Across axis, 
 std::optional<double> efficiency_ratio(const Curve& curve, const Curve& base, std::optional<double> seconds) {
   // A smaller picture takes less time, so the two cannot be compared.
   if (curve.scene && base.scene && curve.scene->image != base.scene->image) return std::nullopt;
+  if (curve.continued_from > 0 || base.continued_from > 0) return std::nullopt;
   const ErrorKind kind = std::min(error_kind(curve), error_kind(base));
   if (seconds) {
     const auto error = error_at(curve, kind, Across::seconds, *seconds);
@@ -125,7 +126,11 @@ Curve& Curves::curve_of(const std::shared_ptr<const Scene>& scene) {
 }
 
 void Curves::add(const std::shared_ptr<const Scene>& scene, const RunPoint& point) {
-  append(curve_of(scene).points, point);
+  Curve& curve = curve_of(scene);
+  append(curve.points, point);
+  if (point.continued_from <= curve.continued_from) return;
+  curve.continued_from = point.continued_from;
+  relabel();
 }
 
 void Curves::set_shown(std::uint64_t id, bool shown) {
@@ -167,7 +172,9 @@ void Curves::relabel() {
       parts.push_back(d.to);
       if (keys.insert(d.key).second) firsts.push_back(d.from);
     }
-    const std::string label = joined(parts, "same");
+    std::string label = joined(parts, "same");
+    if (const int samples = all_[i].continued_from; samples > 0)
+      label += ", continued from " + std::to_string(samples) + " samples";
     all_[i].label = label;
     for (int n = 2; !labels.insert(all_[i].label).second; ++n) all_[i].label = label + " (" + std::to_string(n) + ")";
   }

@@ -18,15 +18,17 @@ struct RunPoint {
   double seconds = 0;               ///< rendering time
   double estimate = 0;              ///< relmse_scaled, from the two halves
   std::optional<Comparison> error;  ///< against the reference, where there was one
-  bool at_least = false;            ///< the estimate is only a lower bound: light may not have been found yet
+  bool at_least = false;            ///< the estimate is a bound: light may not have been found yet
+  int continued_from = 0;           ///< samples of the scene before an edit, which the picture goes on from; 0: none
 };
 
 /// Error against time of one scene with one set of settings.
 struct Curve {
   std::uint64_t id = 0;
   std::shared_ptr<const Scene> scene;
-  std::string label;             ///< what differs from the first curve; the first names what others change
-  std::vector<RunPoint> points;  ///< by increasing samples, each about a fifth more than the one before
+  std::string label;             ///< what differs from the first curve; of that, what the others change
+  int continued_from = 0;        ///< of its points, the most
+  std::vector<RunPoint> points;  ///< by increasing samples, each a fifth more or so than the one before
   bool shown = true;
   std::uint64_t gesture = 0;            ///< the gesture whose edit began it
   std::vector<Difference> differences;  ///< to the first curve's scene
@@ -49,9 +51,9 @@ ErrorKind error_kind(const Curve& curve);
 std::optional<double> error_at(const Curve& curve, ErrorKind kind, Across axis, double place);
 std::optional<double> place_of(const Curve& curve, ErrorKind kind, Across axis, double error);
 
-/// Efficiency divided by that of the base; efficiency is 1 / (error * seconds). With `seconds`, both are taken at that
-/// time, and there is nothing where one has not been there. Without, each is taken as far as it has come. Errors are
-/// against the reference where both curves have such, else estimates. Nothing for pictures of different sizes.
+/// Efficiency over that of the base: inverse ratio of error times seconds. At an equal time, where one is given and
+/// both have been there, else as far as each has come. Compared by the reference where both can be, else by estimate.
+/// Nothing for pictures of different sizes, nor for those that go on from others, whose time does not count.
 std::optional<double> efficiency_ratio(const Curve& curve, const Curve& base, std::optional<double> seconds);
 
 /// One curve for every scene and setting tried, kept across edits.

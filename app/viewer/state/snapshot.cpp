@@ -35,7 +35,9 @@ Message write_now(const std::string& stem, const std::string& ending, const std:
 
 void write_picture(const Snapshot& snapshot, const std::filesystem::path& file) {
   const Frame& frame = *snapshot.frame;
-  const Metadata metadata = render_metadata(*snapshot.scene, frame.samples, frame.seconds);
+  Metadata metadata = render_metadata(*snapshot.scene, frame.samples, frame.seconds);
+  // Rendered anew the scene comes to the same values, but not to the same bits.
+  if (frame.continued_from > 0) metadata["continued_from_samples"] = std::to_string(frame.continued_from);
   if (snapshot.radiance)
     write_exr(file, frame.mean, frame.error, metadata);
   else
