@@ -30,7 +30,7 @@ int run_cli(int argc, char** argv) {
   add_compare_command(app, run);
   add_chart_command(app, run);
   add_report_command(app, run);
-  add_import_command(app, run);
+  add_check_command(app, run);
   add_info_command(app, run);
   try {
     app.parse(argc, argv);

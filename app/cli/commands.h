@@ -26,7 +26,7 @@ void add_merge_command(CLI::App& app, Run& run);
 void add_compare_command(CLI::App& app, Run& run);
 void add_chart_command(CLI::App& app, Run& run);
 void add_report_command(CLI::App& app, Run& run);
-void add_import_command(CLI::App& app, Run& run);
+void add_check_command(CLI::App& app, Run& run);
 void add_info_command(CLI::App& app, Run& run);
 
 /// Reads a scene file, or imports what is none and tells what has no counterpart.
