@@ -9,7 +9,7 @@
 namespace glimt {
 namespace {
 
-constexpr int block_size = 8, cell_size = 2;  // pixels
+constexpr int noise_block = 8, noise_cell = 2;  // pixels
 
 /// A normal variable that is as unlikely as Student's t with so many degrees of freedom (Wallace, "Bounds on normal
 /// approximations to Student's and the chi-square distributions", 1959): within 0.02 of the exact one.
@@ -42,12 +42,12 @@ struct ChannelDifference {
 
 ChannelDifference in_block(const Image& a, const Image& b, int x0, int y0, int channel) {
   std::vector<double> cells;
-  for (int cy = y0; cy < std::min(y0 + block_size, a.height); cy += cell_size)
-    for (int cx = x0; cx < std::min(x0 + block_size, a.width); cx += cell_size) {
+  for (int cy = y0; cy < std::min(y0 + noise_block, a.height); cy += noise_cell)
+    for (int cx = x0; cx < std::min(x0 + noise_block, a.width); cx += noise_cell) {
       double sum = 0;
       int pixels = 0;
-      for (int y = cy; y < std::min(cy + cell_size, a.height); ++y)
-        for (int x = cx; x < std::min(cx + cell_size, a.width); ++x, ++pixels)
+      for (int y = cy; y < std::min(cy + noise_cell, a.height); ++y)
+        for (int x = cx; x < std::min(cx + noise_cell, a.width); ++x, ++pixels)
           sum += double{a.pixel(x, y)[channel]} - double{b.pixel(x, y)[channel]};
       cells.push_back(sum / pixels);
     }
@@ -67,8 +67,8 @@ PictureDifference difference_of(const Image& picture, const Image& reference) {
   PictureDifference result;
   result.mean = whole.mean;
   result.mean_reference = whole.mean_reference;
-  result.across = (picture.width + block_size - 1) / block_size;
-  result.down = (picture.height + block_size - 1) / block_size;
+  result.across = (picture.width + noise_block - 1) / noise_block;
+  result.down = (picture.height + noise_block - 1) / noise_block;
   const int tests = 3 * result.across * result.down;
   const double limit = normal_limit(-std::expm1(std::log1p(-1e-3) / tests));  // for all together (Sidak 1967)
   double squares = 0, variance = 0;
@@ -76,7 +76,7 @@ PictureDifference difference_of(const Image& picture, const Image& reference) {
     for (int bx = 0; bx < result.across; ++bx) {
       BlockDifference block;
       for (int c = 0; c < 3; ++c) {
-        const ChannelDifference channel = in_block(picture, reference, bx * block_size, by * block_size, c);
+        const ChannelDifference channel = in_block(picture, reference, bx * noise_block, by * noise_block, c);
         const double z = channel.z();
         squares += z * z;
         variance += channel.error * channel.error;

@@ -36,21 +36,21 @@ std::vector<std::pair<std::string, Image>> made_of(const Image& reference) {
   const auto power = [&](float exponent) {
     return each_value(reference, [=](float v) { return std::pow(std::max(v, 0.0F), exponent); });
   };
-  const int right = reference.width - 1, bottom = reference.height - 1;
+  const int last_x = reference.width - 1, last_y = reference.height - 1;
   Image swapped = reference;
   for (std::size_t i = 0; i < swapped.rgb.size(); i += 3) std::swap(swapped.rgb[i], swapped.rgb[i + 2]);
-  return {
-      {"everything is pi times as bright", times(pi)},
-      {"everything is divided by pi", times(1 / pi)},
-      {"everything is twice as bright", times(2)},
-      {"everything is half as bright", times(0.5F)},
-      {"gamma 2.2 was applied: values are not linear", power(1 / 2.2F)},
-      {"gamma 2.2 was removed from linear values", power(2.2F)},
-      {"values are cut off at 1", each_value(reference, [](float v) { return std::min(v, 1.0F); })},
-      {"rows are upside down", moved(reference, [=](int x, int y) { return std::pair(x, bottom - y); })},
-      {"left and right are exchanged", moved(reference, [=](int x, int y) { return std::pair(right - x, y); })},
-      {"it is turned by half a turn", moved(reference, [=](int x, int y) { return std::pair(right - x, bottom - y); })},
-      {"red and blue are exchanged", std::move(swapped)}};
+  return {{"everything is pi times as bright", times(pi)},
+          {"everything is divided by pi", times(1 / pi)},
+          {"everything is twice as bright", times(2)},
+          {"everything is half as bright", times(0.5F)},
+          {"gamma 2.2 was applied: values are not linear", power(1 / 2.2F)},
+          {"gamma 2.2 was removed from linear values", power(2.2F)},
+          {"values are cut off at 1", each_value(reference, [](float v) { return std::min(v, 1.0F); })},
+          {"rows are upside down", moved(reference, [=](int x, int y) { return std::pair(x, last_y - y); })},
+          {"left and right are exchanged", moved(reference, [=](int x, int y) { return std::pair(last_x - x, y); })},
+          {"it is turned by half a turn",
+           moved(reference, [=](int x, int y) { return std::pair(last_x - x, last_y - y); })},
+          {"red and blue are exchanged", std::move(swapped)}};
 }
 
 /// A mistake of the rendering, as a change of the scene.

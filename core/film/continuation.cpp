@@ -6,7 +6,7 @@
 namespace glimt {
 namespace {
 
-constexpr int block_size = 16;  ///< pixels, square
+constexpr int fit_size = 16;  ///< of a block, pixels
 constexpr int most_samples = 64;
 constexpr std::size_t most_bytes = std::size_t{128} << 20;
 
@@ -24,8 +24,8 @@ struct Blocks {
   int across, down, width, height;
 
   explicit Blocks(const Image& image)
-      : across((image.width + block_size - 1) / block_size),
-        down((image.height + block_size - 1) / block_size),
+      : across((image.width + fit_size - 1) / fit_size),
+        down((image.height + fit_size - 1) / fit_size),
         width(image.width),
         height(image.height) {}
 
@@ -34,9 +34,9 @@ struct Blocks {
   /// f(index of a value) for all values of a block's pixels.
   template <class F>
   void each_value(int block, F f) const {
-    const int x0 = block % across * block_size, y0 = block / across * block_size;
-    for (int y = y0; y < std::min(y0 + block_size, height); ++y)
-      for (int x = x0; x < std::min(x0 + block_size, width); ++x)
+    const int x0 = block % across * fit_size, y0 = block / across * fit_size;
+    for (int y = y0; y < std::min(y0 + fit_size, height); ++y)
+      for (int x = x0; x < std::min(x0 + fit_size, width); ++x)
         for (std::size_t c = 0; c < 3; ++c)
           f(3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) + c, c);
   }
