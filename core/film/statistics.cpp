@@ -137,7 +137,8 @@ struct BlockPart {
   double likely_square(std::size_t k, std::size_t c) const {
     const double around = pixels() > 1 ? (sum[c] - own[k]) / (pixels() - 1) : own[k];
     const double bright = std::max(around, low[k]);
-    return own[k] < around / 2 ? low[k] * high[k] : bright * bright;
+    // A half that goes on from another picture may be negative.
+    return own[k] < around / 2 ? std::max(low[k], 0.0) * std::max(high[k], 0.0) : bright * bright;
   }
 
   /// The part's sums; `block` is the mean of the block that holds it.
