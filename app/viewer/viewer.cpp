@@ -149,7 +149,11 @@ void remember(const Window& window, const ViewerState& state) {
 
 void run(const std::filesystem::path& scene_file) {
   const bool checkpoint = scene_file.extension() == ".ckpt";
-  Scene scene = checkpoint ? read_checkpoint(scene_file).scene : read_scene(scene_file);
+  ImportedScene opened;
+  if (checkpoint)
+    opened.scene = read_checkpoint(scene_file).scene;
+  else
+    opened = read_or_import(scene_file);
   std::string note;
   const WindowSettings settings = read_window_settings(window_settings_file(), note);
   const WindowSystem system;

@@ -20,7 +20,7 @@ constexpr std::size_t longest_name = 256;
 bool is_wanted(const fs::path& file, FilePurpose purpose) {
   const fs::path ending = file.extension();
   if (purpose == FilePurpose::reference) return ending == ".exr" || ending == ".pfm";
-  return ending == ".toml" || ending == ".png" || ending == ".exr" || ending == ".ckpt";
+  return ending == ".toml" || ending == ".png" || ending == ".exr" || ending == ".ckpt" || is_importable(file);
 }
 
 }  // namespace
