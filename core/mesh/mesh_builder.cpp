@@ -29,7 +29,7 @@ class Hash {
       add_word(word);
     }
     std::uint64_t rest = 0;
-    std::memcpy(&rest, bytes + at, size - at);
+    if (size > at) std::memcpy(&rest, bytes + at, size - at);
     add_word(rest);
   }
   void add(std::string_view text) { add(std::vector<char>(text.begin(), text.end())); }

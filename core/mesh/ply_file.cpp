@@ -116,7 +116,8 @@ class PlyHeader {
         read_format(words[1]);
       } else if (words[0] == "element" && words.size() == 3) {
         elements.push_back({words[1], count(words[2]), {}});
-      } else if (words[0] == "property" && !elements.empty() && words.size() == (words[1] == "list" ? 5u : 3u)) {
+      } else if (words[0] == "property" && !elements.empty() && words.size() > 2 &&
+                 words.size() == (words[1] == "list" ? 5u : 3u)) {
         add_property(words);
       } else {
         mesh_.fail("its header has a line that is not understood", line_);

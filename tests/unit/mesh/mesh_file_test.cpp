@@ -150,6 +150,7 @@ TEST(MeshFile, PlyMistakesNameTheirLine) {
       {with("element face 4", "element face 18446744073709551615"),
        "a.ply: claims 18446744073709551615 of face, which its size does not allow"},
       {with("property float z", "property half z"), "a.ply:7: has a property of a type that is not known"},
+      {with("property float z\n", "property\n"), "a.ply:7: its header has a line that is not understood"},
       {with("property float z\n", ""), "a.ply: has vertices without x, y or z"},
       {with("format ascii 1.0", "format ebcdic 1.0"),
        "a.ply:2: has a format that is not known; allowed are ascii, binary_little_endian and binary_big_endian"},

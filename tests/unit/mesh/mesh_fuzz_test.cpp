@@ -20,6 +20,8 @@ namespace {
 
 std::atomic<std::size_t> taken{0}, most_taken{0};
 
+// AddressSanitizer has allocation functions of its own.
+#ifndef __SANITIZE_ADDRESS__
 void* counted(std::size_t size) {
   constexpr std::size_t head = alignof(std::max_align_t);
   auto* block = static_cast<char*>(std::malloc(size + head));
@@ -37,15 +39,18 @@ void release(void* memory) {
   taken -= *reinterpret_cast<std::size_t*>(block);
   std::free(block);
 }
+#endif
 
 }  // namespace
 
+#ifndef __SANITIZE_ADDRESS__
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete[](void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+#endif
 
 namespace glimt {
 namespace {
