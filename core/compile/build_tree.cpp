@@ -7,6 +7,7 @@
 #endif
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -20,7 +21,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr std::size_t width = TreeNode::width;
+constexpr std::size_t node_width = TreeNode::width;
 constexpr float no_distance = std::numeric_limits<float>::infinity();
 
 /// What Embree's builder calls back makes of these: a node of the tree before it is put into arrays.
@@ -29,11 +30,11 @@ struct BuiltNode {
   unsigned count;  ///< children, or triangles
 };
 struct BuiltInner : BuiltNode {
-  std::array<RTCBounds, width> bounds;
-  std::array<BuiltNode*, width> children;
+  std::array<RTCBounds, node_width> bounds;
+  std::array<BuiltNode*, node_width> children;
 };
 struct BuiltLeaf : BuiltNode {
-  std::array<unsigned, width> triangles;
+  std::array<unsigned, node_width> triangles;
 };
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned count, void*) {
@@ -81,10 +82,10 @@ struct Builder {
   BuiltNode* build(std::vector<RTCBuildPrimitive>& primitives) const {
     RTCBuildArguments args = rtcDefaultBuildArguments();
     args.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-    args.maxBranchingFactor = width;
-    args.sahBlockSize = width;
-    args.minLeafSize = width;
-    args.maxLeafSize = width;
+    args.maxBranchingFactor = node_width;
+    args.sahBlockSize = node_width;
+    args.minLeafSize = node_width;
+    args.maxLeafSize = node_width;
     args.bvh = bvh;
     args.primitives = primitives.data();
     args.primitiveCount = primitives.size();
@@ -215,7 +216,7 @@ class Packer {
   std::int32_t pack_leaf(const BuiltLeaf& leaf) {
     const std::size_t number = tree_.packets.size();
     TrianglePacket& packet = tree_.packets.emplace_back();
-    for (std::size_t i = 0; i < width; ++i) {
+    for (std::size_t i = 0; i < node_width; ++i) {
       const bool used = i < leaf.count;
       const std::size_t part = used ? triangles_.part_of(leaf.triangles[i]) : 0;
       const std::size_t triangle = used ? leaf.triangles[i] - triangles_.begin(part) : 0;
@@ -253,6 +254,7 @@ class Packer {
 
 std::shared_ptr<const TriangleTree> build(const std::vector<TreePart>& parts, const dvec3& origin) {
   const Triangles triangles(parts, origin);
+  const auto start = std::chrono::steady_clock::now();
   auto tree = std::make_shared<TriangleTree>();
   tree->triangles = triangles.count();
   const Builder builder;
@@ -279,6 +281,7 @@ std::shared_ptr<const TriangleTree> build(const std::vector<TreePart>& parts, co
   tree->normals.shrink_to_fit();
   tree->part.shrink_to_fit();
   tree->triangle.shrink_to_fit();
+  tree->build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return tree;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
@@ -14,6 +15,7 @@
 #include "scene/file/text.h"
 #include "scene/geometry/mend.h"
 #include "scene/geometry/mesh_measures.h"
+#include "scene/surroundings.h"
 #include "scene/validate/validate.h"
 
 namespace glimt {
@@ -61,6 +63,12 @@ dvec3 centre_of(const Reach& reach) {
     }
   }
   return low.x <= high.x ? (low + high) / 2.0 : dvec3{0};
+}
+
+/// The nearest point of a grid that is no wider than `most`, so that a small move of an object does not move the tree.
+dvec3 on_grid(const dvec3& point, double most) {
+  const double step = std::exp2(std::floor(std::log2(most)));
+  return round(point / step) * step;
 }
 
 std::vector<dvec3> moved(std::vector<dvec3> vertices, const dvec3& origin) {
@@ -201,7 +209,8 @@ void describe(Lowering& l) {
   count(out.polygons.size(), "polygon", "polygons");
   if (out.tree)
     out.compiled_in.push_back("a tree of " + grouped(out.tree->triangles) + " triangles, " +
-                              number_text(std::round(static_cast<double>(out.tree->bytes()) / 1e5) / 10) + " MB");
+                              number_text(std::round(static_cast<double>(out.tree->bytes()) / 1e5) / 10) +
+                              " MB, built in " + number_text(std::round(out.tree->build_seconds * 10) / 10) + " s");
   count(out.chain_spheres.size(), "sphere that caustics are connected over",
         "spheres that caustics are connected over");
   count(static_cast<std::size_t>(out.lamps.rows()), "piece of a lamp", "pieces of lamps");
@@ -226,7 +235,9 @@ CompiledScene compile(const Scene& as_edited, std::size_t most_listed) {
   Reach reach = find_reach(scene);
   if (separate_coincident(scene, reach, notes)) gather_objects(scene, reach);
   Lowering l{scene, std::move(reach), {}, {}, {}, {}, {}, {}, {}, {}};
+  const TreePlan plan = plan_tree(l, most_listed);
   l.origin = centre_of(l.reach);
+  if (plan.triangles) l.origin = on_grid(l.origin, size_of(scene) / 16);
   l.out.settings = scene.render;
   l.out.width = scene.image.width;
   l.out.height = scene.image.height;
@@ -242,7 +253,6 @@ CompiledScene compile(const Scene& as_edited, std::size_t most_listed) {
   l.out.warnings.insert(l.out.warnings.end(), l.reach.warnings.begin(), l.reach.warnings.end());
   lower_room(l);
   l.out.room_surfaces = static_cast<int>(l.surfaces.size());
-  const TreePlan plan = plan_tree(l, most_listed);
   for (const Polygon* p : l.reach.polygons) lower_polygon(l, *p, plan.polygons);
   lower_meshes(l, plan);
   for (const Sphere* s : l.reach.spheres) lower_sphere(l, *s);

@@ -193,7 +193,7 @@ struct CompiledScene {
 };
 
 /// Of polygons and triangles: with more, a tree is faster than lists. Measured by tests/bench/scaling.
-inline constexpr std::size_t tree_crossing = 256;
+inline constexpr std::size_t tree_crossing = 96;
 
 /// Lowers a valid scene (validate.h); throws SceneError for one that is not, naming the first problem. Objects and
 /// lamps that paths from the camera cannot reach are left out, so the result depends on where the camera is.

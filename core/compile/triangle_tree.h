@@ -35,6 +35,7 @@ struct TriangleTree {
   std::vector<std::int32_t> part;      ///< by place, the object that the triangle is of; -1: there is none
   std::vector<std::int32_t> triangle;  ///< by place, its number in that object
   std::size_t triangles = 0;
+  double build_seconds = 0;
   float reach = 0;  ///< the largest coordinate, metres
   float unit = 1;   ///< a power of two; times the scene's lengths about 1
 

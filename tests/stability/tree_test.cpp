@@ -234,6 +234,23 @@ TEST(TreePictures, AreTheSameForAllThreadsAndLanes) {
     }
 }
 
+// Failure: an edit that waits for a tree to be built anew though no triangle has moved.
+TEST(TreePictures, EditsOfOtherThingsKeepTheTree) {
+  Scene scene = room_with_meshes(16, 2);
+  scene.polygons.erase(scene.polygons.begin());  // no room, so that the scene's middle depends on all objects
+  scene.spheres.push_back({"ball", "white", {2, -3, 2}, 0.5});
+  const auto tree = compile(scene).tree;
+  ASSERT_TRUE(tree);
+  scene.materials[1].set(Reflecting::reflectance, {0.1, 0.2, 0.3});
+  EXPECT_EQ(compile(scene).tree, tree);
+  scene.camera.eye.x += 0.5;
+  EXPECT_EQ(compile(scene).tree, tree);
+  scene.spheres[0].center = {3.5, -3.8, 3.8};  // out of the box around the rest
+  EXPECT_EQ(compile(scene).tree, tree);
+  scene.meshes[0].vertices.edit()[0].x += 0.5;
+  EXPECT_NE(compile(scene).tree, tree);
+}
+
 // Failure: a ray that starts on a triangle beside an edge and comes out of the mesh, or meets the neighbour from
 // behind. Everything in a closed mesh is white and glows with 1, so that a path of 16 rays that stays inside sums up
 // exactly 16: 131,072 paths of each. Inside balls of a million triangles one path in a million escapes, where it
