@@ -28,8 +28,8 @@ Scene scene_of(const RareLight& rare) {
 /// As `glimt render --target-error` has it.
 Film rendered_to(const CompiledScene& scene, double target, int most = max_spp) {
   Film film = make_film(scene);
-  const auto render = [&scene](Film& film, int count) {
-    render_pass(scene, film, count, {});
+  const auto render = [&scene](Film& to, int count) {
+    render_pass(scene, to, count, {});
     return 0.0;
   };
   render_to({.samples = {0, most}, .relmse_scaled = target}, scene, film, render, std::atomic<bool>(false), {});

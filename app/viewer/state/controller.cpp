@@ -308,7 +308,14 @@ Document Controller::open_checkpoint(const fs::path& file) {
 }
 
 void Controller::follow(const fs::path& file) {
-  history_.edited(open_checkpoint(file), 0);
+  const bool paused = session_.paused();
+  session_.set_paused(true);  // before there is a film to add to
+  try {
+    history_.edited(open_checkpoint(file), 0);
+  } catch (...) {
+    session_.set_paused(paused);
+    throw;
+  }
   set_file(file);
   state_.message = {"Follows " + file.filename().string() + " as it grows. Space goes on from what there is"};
 }
