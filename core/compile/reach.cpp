@@ -69,6 +69,7 @@ Place place(const Reach& reach, std::span<const dvec3> vertices, double radius) 
 
 std::vector<dvec3> corners_of(const Box& box) {
   std::vector<dvec3> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
     corners.push_back({(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
                        (i & 4) != 0 ? box.high.z : box.low.z});

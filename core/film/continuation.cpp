@@ -47,7 +47,8 @@ struct Blocks {
     NoiseSums all;
     for (int y = std::max(by - 1, 0); y <= std::min(by + 1, down - 1); ++y)
       for (int x = std::max(bx - 1, 0); x <= std::min(bx + 1, across - 1); ++x)
-        if (x != bx || y != by) all += sums[static_cast<std::size_t>(y * across + x)];
+        if (x != bx || y != by)
+          all += sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) + static_cast<std::size_t>(x)];
     return all;
   }
 };

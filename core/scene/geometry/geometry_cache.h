@@ -28,7 +28,7 @@ class GeometryCache {
     const std::lock_guard lock(mutex_);
     if (const auto known = entries_.find(key); known != entries_.end() && is_alive(*known)) return known->second.value;
     std::erase_if(entries_, [](const auto& entry) { return !is_alive(entry); });
-    const auto value = std::make_shared<const Value>(make());
+    auto value = std::make_shared<const Value>(make());
     entries_[key] = {{parts[0], parts[1], parts[2]}, value};
     return value;
   }

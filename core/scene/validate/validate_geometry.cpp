@@ -73,15 +73,14 @@ void check_mesh(const Mesh& mesh, std::size_t index, Problems& problems) {
   const auto check = [&] {
     Problems found;
     find_problems(mesh, index, found);
-    const bool valid = found.empty();
     problems.insert(problems.end(), found.begin(), found.end());
-    return valid;
+    return found.empty();
   };
+  // Large ones are looked at once, or again to tell their problems.
   static GeometryCache<bool> known;
-  if (!is_large(mesh))
-    check();
-  else if (bool fresh = false; !*known.get(mesh, [&] { return fresh = true, check(); }) && !fresh)
-    check();
+  bool fresh = false;
+  const bool valid = is_large(mesh) && *known.get(mesh, [&] { return fresh = true, check(); });
+  if (!valid && !fresh) check();
 }
 
 }  // namespace glimt
