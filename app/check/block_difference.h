@@ -21,6 +21,12 @@ struct PictureDifference {
   double mean_error = 0;                ///< standard error of their difference
   double mean_square_z = 0;             ///< over blocks and channels; 1 where all is noise
   int beyond = 0;                       ///< blocks that noise explains once in 1000 pairs of pictures at most
+
+  /// The block of a pixel.
+  const BlockDifference& block_at(int x, int y) const {
+    const auto row = static_cast<std::size_t>(y / 8), column = static_cast<std::size_t>(x / 8);
+    return blocks[row * static_cast<std::size_t>(across) + column];
+  }
 };
 
 /// Throws std::invalid_argument where the sizes differ or a value is not finite.

@@ -59,7 +59,7 @@ Image map_of(const PictureDifference& d, const Image& picture) {
   Image map = picture;
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
-      const double z = d.blocks[static_cast<std::size_t>(y / 8 * d.across + x / 8)].z;
+      const double z = d.block_at(x, y).z;
       const auto size = static_cast<float>(std::min(std::abs(z) / 10, 1.0));
       float* const rgb = map.pixel(x, y);
       rgb[0] = z > 0 ? size : 0;
@@ -78,6 +78,7 @@ void write_page(const CheckOptions& options, const Image& picture, const Image& 
       {{picture, "Checked"}, {reference, "Reference"}, {map_of(all, picture), "Red: too bright. Blue: too dark"}},
       "Full colour is ten standard errors.");
   std::vector<Page::Row> rows;
+  rows.reserve(causes.size());
   for (const Cause& cause : causes)
     rows.push_back({cause.name, std::to_string(cause.left.beyond), figure_text(cause.left.mean_square_z),
                     explains(cause, all) ? "explains it" : ""});
