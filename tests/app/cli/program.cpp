@@ -26,6 +26,7 @@ namespace {
                              "OMPI_MCA_rmaps_base_oversubscribe", "OMPI_MCA_mpi_yield_when_idle"})
       setenv(name, "1", 1);
     setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
+    setenv("OMPI_MCA_plm", "isolated", 1);  // starts nothing elsewhere, so it wants no ssh
   }
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
