@@ -29,16 +29,15 @@ struct ScatterSample {
 /// A surface where a path meets it.
 template <class F>
 struct Interaction {
-  Vec3<F> point;   ///< compiled space, metres
-  Vec3<F> normal;  ///< unit, towards the side from which the path comes; the shading normal of a smooth triangle
   F cos_o;         ///< cosine of wo to the normal
-  Mask<F> front;   ///< the path comes from the side of the surface's own normal
   Int<F> surface;  ///< a ray from here starts on it
   Int<F> row;      ///< of the surface table; differs from `surface` where that is a triangle of a tree
   Int<F> kind;     ///< names the lobe: lobe_kind of lobes.h
-  // Only kernels with a tree know these.
+  Vec3<F> point;   ///< compiled space, metres
+  Vec3<F> normal;  ///< unit, towards the side from which the path comes; the shading normal of a smooth triangle
+  Vec3<F> flat;    ///< own normal of a smooth triangle, on the side of `normal`; like `smooth` for trees alone
+  Mask<F> front;   ///< the path comes from the side of the surface's own normal
   Mask<F> smooth;  ///< the surface is a smooth triangle
-  Vec3<F> flat;    ///< own normal of a smooth triangle, on the side of `normal`
 };
 
 }  // namespace glimt
