@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "film/statistics.h"
+
 namespace glimt {
 namespace {
 
@@ -40,6 +42,7 @@ void Anchor::leave(const Scene& scene, const Accumulation& now) {
 
 void Anchor::show(const Scene& scene, bool from_zero) {
   correction_.reset();
+  best_.reset();
   corrected_at_ = 0;
   const bool counted = scene.render.target_error == 0 && scene.render.spp < max_spp;
   used_ = film_ && !from_zero && !counted && goes_on(scene_, scene) && scene_ != scene;
@@ -50,12 +53,19 @@ std::optional<Film> Anchor::picture(const Accumulation& now) {
   const auto& mine = first_.entries();
   const auto& theirs = now.first.entries();
   const int newest = theirs.empty() ? 0 : theirs.rbegin()->first;
-  if (newest > corrected_at_ && mine.contains(newest)) {
+  const bool fresh = newest > corrected_at_ && mine.contains(newest);
+  if (fresh) {
     correction_ = continue_from(*film_, mine.at(newest), theirs.at(newest), newest, now.film.scale());
     corrected_at_ = newest;
   }
   if (!correction_) return {};
-  return corrected(now.film, *correction_);
+  Film picture = corrected(now.film, *correction_);
+  const double error = estimate_error(picture).at_most();
+  // Samples of the edited scene alone make a picture worse that knows nearly all from the one before.
+  if (best_ && !fresh && error > best_error_) return best_;
+  best_ = picture;
+  best_error_ = error;
+  return picture;
 }
 
 Image Anchor::preview_from(const Image& now, int step) const {

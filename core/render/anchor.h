@@ -45,7 +45,9 @@ class Anchor {
   FirstSamples first_;
   Image small_;  ///< preview of its scene; empty until it is asked for
   std::optional<Correction> correction_;
-  int corrected_at_ = 0;  ///< samples that the correction is from
+  std::optional<Film> best_;  ///< the last picture that was no worse than the one before it
+  double best_error_ = 0;     ///< relmse_scaled that it states
+  int corrected_at_ = 0;      ///< samples that the correction is from
   bool used_ = false;
 };
 
