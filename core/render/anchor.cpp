@@ -1,8 +1,7 @@
 #include "render/anchor.h"
 
 #include <algorithm>
-
-#include "film/statistics.h"
+#include <utility>
 
 namespace glimt {
 namespace {
@@ -48,7 +47,7 @@ void Anchor::show(const Scene& scene, bool from_zero) {
   used_ = film_ && !from_zero && !counted && goes_on(scene_, scene) && scene_ != scene;
 }
 
-std::optional<Film> Anchor::picture(const Accumulation& now) {
+std::optional<Anchor::Picture> Anchor::picture(const Accumulation& now) {
   if (!used_) return {};
   const auto& mine = first_.entries();
   const auto& theirs = now.first.entries();
@@ -59,13 +58,11 @@ std::optional<Film> Anchor::picture(const Accumulation& now) {
     corrected_at_ = newest;
   }
   if (!correction_) return {};
-  Film picture = corrected(now.film, *correction_);
-  const double error = estimate_error(picture).at_most();
+  Picture picture{corrected(now.film, *correction_), {}};
+  picture.estimate = estimate_error(picture.film);
   // Samples of the edited scene alone make a picture worse that knows nearly all from the one before.
-  if (best_ && !fresh && error > best_error_) return best_;
-  best_ = picture;
-  best_error_ = error;
-  return picture;
+  if (!best_ || fresh || picture.estimate.at_most() <= best_->estimate.at_most()) best_ = std::move(picture);
+  return best_;
 }
 
 Image Anchor::preview_from(const Image& now, int step) const {

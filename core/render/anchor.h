@@ -13,6 +13,11 @@ namespace glimt {
 /// while a control is dragged, so that errors do not pile up.
 class Anchor {
  public:
+  struct Picture {
+    Film film;
+    ErrorEstimate estimate;
+  };
+
   /// Keeps `accumulation.whole` up to date, and takes what the film has after its first samples. After each pass.
   static void look_at(Accumulation& accumulation);
   /// How many samples the next pass is to have, where the caller wants `wanted`.
@@ -25,7 +30,7 @@ class Anchor {
   void show(const Scene& scene, bool from_zero);
 
   /// The picture to show: the film of the scene that is shown, corrected by the anchor once it can be; else null.
-  std::optional<Film> picture(const Accumulation& accumulation);
+  std::optional<Picture> picture(const Accumulation& accumulation);
   /// The same for a small picture of one sample a pixel, whose pixels are `step` pixels wide: it has the size of the
   /// anchor's. `render` renders a scene so. Null where there is nothing to go on from.
   template <class Render>
@@ -45,9 +50,8 @@ class Anchor {
   FirstSamples first_;
   Image small_;  ///< preview of its scene; empty until it is asked for
   std::optional<Correction> correction_;
-  std::optional<Film> best_;  ///< the last picture that was no worse than the one before it
-  double best_error_ = 0;     ///< relmse_scaled that it states
-  int corrected_at_ = 0;      ///< samples that the correction is from
+  std::optional<Picture> best_;  ///< the last picture that was no worse than the one before it
+  int corrected_at_ = 0;         ///< samples that the correction is from
   bool used_ = false;
 };
 

@@ -298,11 +298,11 @@ void Session::render_some(const Job& job, Accumulation& now) {
   Anchor::look_at(now);
   if (unwanted(job)) return;
   picture_ = anchor_.picture(now);
-  now.estimate = estimate_error(picture_ ? *picture_ : now.film);
+  now.estimate = picture_ ? picture_->estimate : estimate_error(now.film);
 }
 
 void Session::show(const Job& job, const Accumulation& now, bool with_error) {
-  const Film& film = picture_ ? *picture_ : now.film;
+  const Film& film = picture_ ? picture_->film : now.film;
   auto frame = std::make_shared<Frame>();
   frame->version = job.version;
   frame->size = {film.width(), film.height()};

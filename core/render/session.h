@@ -81,10 +81,10 @@ class Session {
 
   Execution execution_;
   std::function<void()> on_frame_;
-  FilmCache kept_;               ///< of the worker
-  Anchor anchor_;                ///< of the worker
-  std::optional<Film> picture_;  ///< of the worker: what is shown in place of the film
-  mutable std::mutex mutex_;     ///< held for assignments only, never while rendering, copying pixels or uploading
+  FilmCache kept_;                          ///< of the worker
+  Anchor anchor_;                           ///< of the worker
+  std::optional<Anchor::Picture> picture_;  ///< of the worker: what is shown in place of the film
+  mutable std::mutex mutex_;  ///< held for assignments only, never while rendering, copying pixels or uploading
   std::condition_variable wake_;
   std::shared_ptr<const Job> job_;      ///< what to render
   std::shared_ptr<const Frame> frame_;  ///< what to show

@@ -152,10 +152,7 @@ void Controller::apply(const Edits& edits) {
   if (edits.open) open(*edits.open);
   if (edits.save) save(*edits.save);
   if (edits.recover) recover();
-  if ((edits.recover || edits.forget_left_behind) && autosave_) {
-    autosave_->forget_left_behind();
-    state_.left_behind.reset();
-  }
+  if (edits.forget_left_behind) forget_left_behind();
   if (edits.toggle_pause && !followed) session_.set_paused(!session_.paused());
   if (edits.restart) session_.restart();
   if (edits.snapshot) want_snapshot(false);
@@ -336,9 +333,15 @@ void Controller::recover() {
     state_.opened_size = state_.filed->image;
     session_.set_paused(false);
     state_.message = {"Goes on with " + state_.left_behind->scene};
+    forget_left_behind();  // not where it failed: the samples are still there to be merged or opened by hand
   } catch (const std::exception& error) {
     state_.message = {error.what(), true};
   }
+}
+
+void Controller::forget_left_behind() {
+  if (autosave_) autosave_->forget_left_behind();
+  state_.left_behind.reset();
 }
 
 void Controller::save(const fs::path& file) {

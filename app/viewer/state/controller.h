@@ -61,6 +61,7 @@ class Controller {
   void follow(const std::filesystem::path& file);
   void stop_following();
   void recover();
+  void forget_left_behind();
   void save(const std::filesystem::path& file);
   void reload();
   void want_snapshot(bool radiance);
